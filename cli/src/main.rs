@@ -8,8 +8,8 @@ mod commands;
 mod failure;
 mod gpu;
 mod interrupt;
+mod paragraph;
 mod scene;
-mod table;
 
 use args::{Arguments, Command};
 use clap::Parser;

@@ -140,7 +140,7 @@ fn pass_time(passes: &PassTimes, name: &'static str, samples: u32) -> Result<f64
 /// Returns the parts of a method's frame, or the reason why they are unknown.
 fn parts(method: &MethodErrors, passes: &PassTimes) -> Result<Result<Parts, &'static str>, FrameError> {
     let main = |samples| pass_time(passes, "main G-buffer", samples);
-    let filter_ms = method.time.map(|time| time.median_ms);
+    let filter_ms = method.time.as_ref().map(|time| time.median_ms);
     Ok(match method.family {
         Family::None => Ok(Parts {
             geometry_ms: main(1)?,
@@ -247,7 +247,8 @@ fn mark_best(methods: &mut [FrameMethod], cost: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use straightline_bench::execute::{Quartiles, Times};
+    use crate::statistics::Interval;
+    use straightline_bench::execute::Times;
 
     fn circumstances(size: [u32; 2]) -> Circumstances {
         serde_json::from_value(serde_json::json!({
@@ -262,6 +263,7 @@ mod tests {
             min_ms: ms,
             max_ms: ms,
             rounds: 3,
+            rounds_ms: Vec::new(),
         });
         MethodErrors {
             method: name.to_owned(),
@@ -303,7 +305,11 @@ mod tests {
         let passes = passes.map(|(name, samples, ms)| crate::record::TimedPass {
             name: name.to_owned(),
             samples,
-            ms: Quartiles::from_values(&[ms]).unwrap(),
+            ms: Interval {
+                median: ms,
+                low: ms,
+                high: ms,
+            },
         });
         let methods = vec![
             method("1x", Family::None, &[], 30.0, None),

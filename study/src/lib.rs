@@ -15,5 +15,7 @@ pub mod quads;
 pub mod quality;
 pub mod record;
 pub mod report;
+pub mod statistics;
 pub mod sweep;
 pub mod tune;
+pub mod turns;

@@ -1,11 +1,12 @@
 //! The page made of records: whole, self-contained, and saying what the records say.
 
 use glam::{Vec4, uvec2};
-use straightline_bench::execute::{Clock, Ratio, Times};
+use straightline_bench::execute::{Clock, Times};
 use straightline_kernels::prelude::Frame;
 use straightline_scene::picture;
 use straightline_study::record::*;
 use straightline_study::report;
+use straightline_study::statistics::Interval;
 
 fn circumstances() -> Circumstances {
     Circumstances {
@@ -16,6 +17,7 @@ fn circumstances() -> Circumstances {
         clock: Clock::WallClock,
         size: [64, 48],
         rounds: 3,
+        intervals: IntervalKind::Blocks,
         complete: true,
     }
 }
@@ -26,11 +28,12 @@ fn times(median_ms: f64) -> Times {
         min_ms: median_ms * 0.75,
         max_ms: median_ms * 1.25,
         rounds: 3,
+        rounds_ms: vec![median_ms; 3],
     }
 }
 
-fn ratio(median: f64) -> Ratio {
-    Ratio {
+fn ratio(median: f64) -> Interval {
+    Interval {
         median,
         low: median * 0.95,
         high: median * 1.05,
@@ -40,6 +43,7 @@ fn ratio(median: f64) -> Ratio {
 fn loops() -> LoopsRecord {
     let form = |kind, ms, faster| FormRecord {
         kind,
+        hash: Some(format!("{kind:?}")),
         loops: 2,
         statements: 120,
         reads: 35,
@@ -57,6 +61,12 @@ fn loops() -> LoopsRecord {
         forms: vec![
             form(FormKind::Looped, 40.0, 1.0),
             form(FormKind::Full, 10.0, 4.0),
+            // Two equal shaders of which one seems a tenth faster, so that ratios of 0.91 to 1.1 mean nothing.
+            FormRecord {
+                hash: Some(format!("{:?}", FormKind::Full)),
+                ..form(FormKind::FullUnshared, 11.0, 3.6)
+            },
+            form(FormKind::Partial2, 38.0, 1.05),
             form(FormKind::Floor, 5.0, 8.0),
         ],
         absent: vec![(FormKind::LoopedByHand, "nobody wrote it".to_owned())],
@@ -248,14 +258,18 @@ fn the_page_says_what_the_records_say() {
         "2026-01-02",
         "unrolled: 4× as fast as looped (3.8 to 4.2), 10 ms",
         "nobody wrote it",
+        "A pair of equal shaders has a ratio of 0.91 to 1.10; ratios within that are marked ≈.",
+        "<td>1.05 (1.00 to 1.10) ≈",
+        "<td>4.00 (3.80 to 4.20)<td>",
         "38.00",
         "10.0 % of its pixels have an edge of geometry",
         "born at metric.rs:12: 0 / 0",
         "not finite: 1",
         "depth has too few bits",
         "3 of 10",
+        "<code>metric depth ← chosen</code>",
         "<code>metric depth</code>, 39.8000",
-        "<td>0.1250<td>2.50",
+        "<td>0.1250<td>2.50 (2.38 to 2.62)",
         "would lose without: placing (1.250)",
         "Refused: f16: the adapter has none",
         "off by 7.0 % in the mean and 20.0 % at most",
@@ -299,7 +313,7 @@ fn records_are_read_as_they_were_written() {
     let csv = std::fs::read_to_string(folder.join("tune.csv")).unwrap();
     let rows: Vec<&str> = csv.lines().collect();
     assert_eq!(rows.len(), 4);
-    assert!(rows[2].starts_with("metric=depth,f32,1x1,39.80000,22.00"), "{csv}");
+    assert!(rows[2].starts_with("metric=depth,f32,exact,1x1,39.8,8,"), "{csv}");
     assert!(
         std::fs::read_to_string(folder.join("hard.csv"))
             .unwrap()

@@ -22,7 +22,7 @@ pub use shadowed::Shadowed;
 pub use straightline_scene::inputs::{Address, Comparison, Inputs, SamplerState};
 pub use synthetic::test_inputs;
 pub use tiles::{Tile, crop_inputs, split_tiles};
-pub use timing::{Clock, Job, Quartiles, Ratio, Timed, Times, next_timestamps};
+pub use timing::{Clock, Job, Timed, Times, next_timestamps};
 pub use uploads::Uploads;
 pub use work::Work;
 

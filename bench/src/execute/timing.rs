@@ -9,7 +9,7 @@ use straightline_runtime::{Pass, Timer};
 use straightline_scene::render::Timestamps;
 
 /// Times of one shader over all rounds, in milliseconds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Times {
     /// The middle of all rounds.
     pub median_ms: f64,
@@ -19,12 +19,16 @@ pub struct Times {
     pub max_ms: f64,
     /// Rounds, after one that is not counted.
     pub rounds: usize,
+    /// Time of each round; none in records from before it was introduced.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rounds_ms: Vec<f64>,
 }
 
 impl Times {
     /// Median and extremes; `None` of no times.
     pub fn from_durations(times: &[Duration]) -> Option<Times> {
-        let mut sorted: Vec<f64> = times.iter().map(|t| t.as_secs_f64() * 1e3).collect();
+        let rounds_ms: Vec<f64> = times.iter().map(|t| t.as_secs_f64() * 1e3).collect();
+        let mut sorted = rounds_ms.clone();
         sorted.sort_by(f64::total_cmp);
         let (min, max) = (*sorted.first()?, *sorted.last()?);
         let middle = sorted.len() / 2;
@@ -38,74 +42,9 @@ impl Times {
             min_ms: min,
             max_ms: max,
             rounds: sorted.len(),
+            rounds_ms,
         })
     }
-}
-
-/// The speedup of one shader over another, from rounds in which both ran.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Ratio {
-    /// The middle of the ratios of all rounds.
-    pub median: f64,
-    /// A tenth of the rounds were below this.
-    pub low: f64,
-    /// A tenth of the rounds were above this.
-    pub high: f64,
-}
-
-impl Ratio {
-    /// Speedup over `base` of what took `times`, round by round; `None` of no rounds.
-    pub fn from_durations(base: &[Duration], times: &[Duration]) -> Option<Ratio> {
-        let ratio = |(base, time): (&Duration, &Duration)| base.as_secs_f64() / time.as_secs_f64().max(1e-9);
-        let ratios: Vec<f64> = base.iter().zip(times).map(ratio).collect();
-        let [low, median, high] = find_quantiles(&ratios, [0.1, 0.5, 0.9])?;
-        Some(Ratio { median, low, high })
-    }
-}
-
-/// Median and quartiles of what several rounds gave, in their unit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Quartiles {
-    /// A quarter of the rounds were below this.
-    pub lower: f64,
-    /// The middle of all rounds.
-    pub median: f64,
-    /// A quarter of the rounds were above this.
-    pub upper: f64,
-}
-
-impl Quartiles {
-    /// Of the values of all rounds; `None` of none.
-    pub fn from_values(values: &[f64]) -> Option<Quartiles> {
-        let [lower, median, upper] = find_quantiles(values, [0.25, 0.5, 0.75])?;
-        Some(Quartiles { lower, median, upper })
-    }
-
-    /// Of a sum whose parts were measured apart: each quartile is the sum of the parts', as if a slow round slowed all of them.
-    pub fn sum(parts: impl IntoIterator<Item = Quartiles>) -> Quartiles {
-        let zero = Quartiles {
-            lower: 0.0,
-            median: 0.0,
-            upper: 0.0,
-        };
-        parts.into_iter().fold(zero, |sum, part| Quartiles {
-            lower: sum.lower + part.lower,
-            median: sum.median + part.median,
-            upper: sum.upper + part.upper,
-        })
-    }
-}
-
-/// The values below which these shares of all lie, interpolated; `None` of no values.
-fn find_quantiles<const N: usize>(values: &[f64], shares: [f64; N]) -> Option<[f64; N]> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let last = sorted.len().checked_sub(1)?;
-    Some(shares.map(|share| {
-        let place = share * last as f64;
-        let below = sorted[place as usize];
-        below + (sorted[(place as usize + 1).min(last)] - below) * place.fract()
-    }))
 }
 
 /// Times of several shaders that ran in turn, round by round.
@@ -118,14 +57,15 @@ pub struct Timed {
 }
 
 impl Timed {
+    /// Returns the milliseconds of each shader, round by round.
+    pub fn rounds_ms(&self) -> Vec<Vec<f64>> {
+        let milliseconds = |rounds: &Vec<Duration>| rounds.iter().map(|time| time.as_secs_f64() * 1e3).collect();
+        self.rounds.iter().map(milliseconds).collect()
+    }
+
     /// Median and extremes of a shader; `None` if there is no such shader.
     pub fn times(&self, shader: usize) -> Option<Times> {
         Times::from_durations(self.rounds.get(shader)?)
-    }
-
-    /// Speedup of a shader over `base`; `None` if one of them is not there.
-    pub fn ratio(&self, base: usize, shader: usize) -> Option<Ratio> {
-        Ratio::from_durations(self.rounds.get(base)?, self.rounds.get(shader)?)
     }
 }
 
@@ -257,38 +197,5 @@ impl Bench {
                 Ok(start.elapsed() / repeats)
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ratios_are_taken_round_by_round() {
-        let ms = |times: &[u64]| times.iter().map(|t| Duration::from_millis(*t)).collect::<Vec<_>>();
-        // The second round was slow for both: their ratio is not.
-        let ratio = Ratio::from_durations(&ms(&[40, 400, 44]), &ms(&[10, 100, 10])).unwrap();
-        assert_eq!(ratio.median, 4.0);
-        assert!(
-            (ratio.low - 4.0).abs() < 1e-12 && (ratio.high - 4.32).abs() < 1e-12,
-            "{ratio:?}"
-        );
-        assert_eq!(Ratio::from_durations(&[], &[]), None);
-    }
-
-    #[test]
-    fn quartiles_are_interpolated_and_add_up() {
-        let quartiles = Quartiles::from_values(&[5.0, 1.0, 2.0, 3.0]).unwrap();
-        assert_eq!(
-            quartiles,
-            Quartiles {
-                lower: 1.75,
-                median: 2.5,
-                upper: 3.5
-            }
-        );
-        assert_eq!(Quartiles::sum([quartiles, quartiles]).upper, 7.0);
-        assert_eq!(Quartiles::from_values(&[]), None);
     }
 }

@@ -4,7 +4,7 @@ use super::command_line;
 use crate::args::DemoArgs;
 use crate::failure::Failure;
 use crate::gpu::{self, Gpu};
-use crate::{scene, table};
+use crate::scene;
 use glam::{UVec2, Vec4};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -20,6 +20,7 @@ use straightline_scene::capture::{Capture, ShadingSample};
 use straightline_scene::gbuffer;
 use straightline_scene::picture;
 use straightline_scene::render::{self, Renderer};
+use straightline_table::{Cell, Table};
 
 /// An antialiased picture and its measurements.
 struct Method {
@@ -175,7 +176,10 @@ fn on_adapter(gpu: &Gpu, method: &Method, rounds: u32) -> Result<Measured, Failu
     let resolved = bench
         .run(&method.unrolled, Stage::Compute, inputs)
         .map_err(Failure::from_error)?;
-    Ok((resolved, [times[0], times[1]], clock))
+    let times = times
+        .try_into()
+        .map_err(|_| Failure::Failed("nothing was timed".to_owned()))?;
+    Ok((resolved, times, clock))
 }
 
 /// Runs one round in the interpreter, which is there to show the result, not to be timed.
@@ -230,9 +234,9 @@ fn measured_row(
     Ok(Row {
         texture_reads: Some(counts.texture_reads + counts.colour_reads),
         weight_evaluations: counts.tallies.get("weight_evaluations").copied(),
+        ratio: Some(looped.median_ms / unrolled.median_ms),
         looped: Some(looped),
         unrolled: Some(unrolled),
-        ratio: Some(looped.median_ms / unrolled.median_ms),
         largest_difference_to_f64: Some(metrics::max_abs_difference_to(resolved, &exact)),
         ..plain_row(method.name, resolved, reference)
     })
@@ -261,36 +265,20 @@ fn print(args: &DemoArgs, record: &Record) -> Result<(), Failure> {
         outln!("{}", serde_json::to_string_pretty(record).map_err(Failure::from_error)?);
         return Ok(());
     }
-    let count = |n: Option<u32>| n.map_or(String::new(), |n| n.to_string());
-    let time = |t: Option<Times>| t.map_or(String::new(), |t| format!("{:.2} ms", t.median_ms));
-    let rows: Vec<Vec<String>> = record
-        .rows
-        .iter()
-        .map(|row| {
-            vec![
-                row.method.clone(),
-                count(row.texture_reads),
-                count(row.weight_evaluations),
-                time(row.looped),
-                time(row.unrolled),
-                row.ratio.map_or(String::new(), |r| format!("{r:.1}x")),
-                format!("{:.2} dB", row.psnr_db),
-                row.largest_difference_to_f64
-                    .map_or(String::new(), |d| format!("{d:.1e}")),
-            ]
+    let time = |time: &Option<Times>| time.as_ref().map(|time| Cell::fixed(time.median_ms, 2).suffixed(" ms"));
+    let table = Table::of(&record.rows)
+        .column("method", |row| &row.method)
+        .column("reads", |row| row.texture_reads)
+        .column("weights", |row| row.weight_evaluations)
+        .column("looped", |row| time(&row.looped))
+        .column("unrolled", |row| time(&row.unrolled))
+        .column("ratio", |row| {
+            row.ratio.map(|ratio| Cell::fixed(ratio, 1).suffixed("x"))
         })
-        .collect();
-    let headings = [
-        "method",
-        "reads",
-        "weights",
-        "looped",
-        "unrolled",
-        "ratio",
-        "PSNR",
-        "off f64 by",
-    ];
-    outln!("{}", table::render_table(&headings, &rows));
+        .column("PSNR", |row| Cell::fixed(row.psnr_db, 2).suffixed(" dB"))
+        .scientific("off f64 by", 1, |row| row.largest_difference_to_f64)
+        .finish();
+    outln!("{}", table.to_text());
     let with = match record.clock {
         Clock::GpuTimestamps => "GPU timestamps, shaders in turn",
         Clock::WallClock => "wall clock, in turn",

@@ -6,7 +6,7 @@ use super::notes::find_notes;
 use super::paper::count_for_paper;
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
-use crate::table;
+use crate::paragraph::wrap_text;
 use serde_json::{Map, Value, json};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
@@ -15,6 +15,7 @@ use straightline_codegen::passes::{Gathered, Sharing};
 use straightline_codegen::{Compiled, EmitOptions, ReadOrder, Unroll};
 use straightline_kernels::{OptionValue, PaperCounts};
 use straightline_manifest::{BindingKind, Counts, Manifest, Precision};
+use straightline_table::Table;
 
 /// Prints the counts of one kernel with one set of options.
 pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
@@ -100,7 +101,7 @@ fn print_section(head: &str, text: &str) {
     let text = if text.is_empty() { "none" } else { text };
     outln!(
         "{}",
-        table::wrap_text(text, WIDTH, &format!("{head:HEAD$}"), &" ".repeat(HEAD))
+        wrap_text(text, WIDTH, &format!("{head:HEAD$}"), &" ".repeat(HEAD))
     );
 }
 
@@ -202,7 +203,7 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
         "" => compiled.kernel.clone(),
         summary => format!("{}: {summary}", compiled.kernel),
     };
-    outln!("{}\n", table::wrap_text(&title, WIDTH, "", "  "));
+    outln!("{}\n", wrap_text(&title, WIDTH, "", "  "));
     let is_empty = |value: &OptionValue| value.numbers().is_some_and(<[f64]>::is_empty);
     let given = compiled.options.iter().filter(|(_, value)| !is_empty(value));
     let options = given.map(|(name, value)| format!("{name}={value}"));
@@ -253,13 +254,13 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
         [width, height] => format!("{width}x{height} pixels"),
     };
     let per = format!("Counts for {per}");
-    match paper {
-        Some(_) => out!("{}", table::render_table(&[&per, "here", "paper"], &rows)),
-        None => {
-            rows.iter_mut().for_each(|row| row.truncate(2));
-            out!("{}", table::render_table(&[&per, "here"], &rows));
-        }
-    }
+    let table = Table::of(rows)
+        .column(per, |(name, ..)| name.clone())
+        .column("here", |(_, here, _)| *here)
+        .column("paper", |(.., paper)| *paper)
+        .finish();
+    let unwanted: &[&str] = if paper.is_some() { &[] } else { &["paper"] };
+    out!("{}", table.without(unwanted).to_text());
     if !counts.max_live_at.is_empty() {
         outln!("most scalars are alive at {}", counts.max_live_at);
     }
@@ -274,25 +275,19 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
 
 /// Prints the memory shared by a workgroup, and the reads that are not shared, with the reason.
 fn print_sharing(sharing: &Sharing) {
-    let rows = sharing.tiles.iter().map(|tile| {
-        let ([left, upper], [width, height]) = (tile.first, tile.size);
-        let cells = [
-            tile.display_name(),
-            format!("{width}x{height} from ({left}, {upper})"),
-            tile.bytes.to_string(),
-            tile.reads.to_string(),
-            tile.fills.to_string(),
-        ];
-        cells.to_vec()
-    });
     let [width, height] = sharing.threads;
     let head = format!("Shared by {width}x{height} pixels");
-    let rows: Vec<Vec<String>> = rows.collect();
-    outln!();
-    out!(
-        "{}",
-        table::render_table(&[&head, "texels", "bytes", "reads", "now"], &rows)
-    );
+    let table = Table::of(&sharing.tiles)
+        .column(head, |tile| tile.display_name())
+        .column("texels", |tile| {
+            let ([left, upper], [width, height]) = (tile.first, tile.size);
+            format!("{width}x{height} from ({left}, {upper})")
+        })
+        .column("bytes", |tile| tile.bytes)
+        .column("reads", |tile| tile.reads)
+        .column("now", |tile| tile.fills)
+        .finish();
+    out!("\n{}", table.to_text());
     for apart in &sharing.unshared {
         let (reads, of) = (apart.reads, &apart.texture);
         let noun = if reads == 1 { "read" } else { "reads" };
@@ -309,33 +304,26 @@ fn print_gathered(gathered: &[Gathered]) {
         );
         return;
     }
-    let rows = gathered
-        .iter()
-        .map(|g| vec![g.display_name(), g.reads.to_string(), g.gathers.to_string()]);
-    let rows: Vec<Vec<String>> = rows.collect();
-    out!("{}", table::render_table(&["Gathered", "reads", "gathers"], &rows));
+    let table = Table::of(gathered)
+        .column("Gathered", |g| g.display_name())
+        .column("reads", |g| g.reads)
+        .column("gathers", |g| g.gathers)
+        .finish();
+    out!("{}", table.to_text());
 }
 
 /// Prints the outcome for each loop. A loop that was unrolled against the request has its reason.
 fn print_loops(compiled: &Compiled) {
-    let loops = compiled.loops.iter().map(|report| {
-        let cells = [
-            report.policy_path(),
-            report.unroll.to_string(),
-            report.copies.to_string(),
-            report.operations.to_string(),
-        ];
-        cells.to_vec()
-    });
-    let loops: Vec<Vec<String>> = loops.collect();
+    let loops = Table::of(&compiled.loops)
+        .column("Loop", |report| report.policy_path())
+        .column("unroll", |report| report.unroll.to_string())
+        .column("copies", |report| report.copies)
+        .column("operations", |report| report.operations)
+        .finish();
     if loops.is_empty() {
         return;
     }
-    outln!();
-    out!(
-        "{}",
-        table::render_table(&["Loop", "unroll", "copies", "operations"], &loops)
-    );
+    out!("\n{}", loops.to_text());
     for report in &compiled.loops {
         if let Some(reason) = &report.reason {
             let became = match report.unroll {
@@ -347,10 +335,6 @@ fn print_loops(compiled: &Compiled) {
     }
 }
 
-fn count_row(name: &str, n: u32, paper: Option<u32>) -> Vec<String> {
-    vec![
-        name.to_owned(),
-        n.to_string(),
-        paper.map_or(String::new(), |p| p.to_string()),
-    ]
+fn count_row(name: &str, n: u32, paper: Option<u32>) -> (String, u32, Option<u32>) {
+    (name.to_owned(), n, paper)
 }

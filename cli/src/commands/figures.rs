@@ -6,13 +6,14 @@ use super::study::error::to_failure;
 use crate::args::FiguresArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
-use crate::{scene, table};
+use crate::scene;
 use std::collections::BTreeMap;
 use std::time::Duration;
 use straightline_codegen::files;
 use straightline_scene::picture;
 use straightline_study::quads;
 use straightline_study::quality::{FIGURES, Figure};
+use straightline_table::Table;
 
 /// Figures of the chapter: names and subjects.
 const OF_THE_CHAPTER: [(&str, &str); 2] = [
@@ -54,7 +55,7 @@ pub fn write_figures(args: &FiguresArgs) -> Result<(), Failure> {
             .iter()
             .map(|(name, db)| format!("{name} {db:.1} dB"))
             .collect();
-        rows.push(vec![figure.name.to_owned(), figure.shows.to_owned(), psnr.join("; ")]);
+        rows.push([figure.name.to_owned(), figure.shows.to_owned(), psnr.join("; ")]);
     }
     if OF_THE_CHAPTER.iter().any(|(name, _)| wanted(name)) {
         // Minimal timing: only the pictures are needed.
@@ -74,16 +75,18 @@ pub fn write_figures(args: &FiguresArgs) -> Result<(), Failure> {
             if wanted(name) {
                 let bytes = picture::png_bytes(&made).map_err(Failure::from_error)?;
                 set.insert(format!("{name}.png"), bytes);
-                rows.push([*name, *shows, ""].map(str::to_owned).to_vec());
+                rows.push([*name, *shows, ""].map(str::to_owned));
             }
         }
     }
     drop(progress);
     files::write_all(&args.out, &set).map_err(Failure::from_error)?;
-    outln!(
-        "{}",
-        table::render_table(&["figure", "what it shows", "of the whole picture"], &rows)
-    );
+    let table = Table::of(rows)
+        .column("figure", |[figure, ..]| figure.clone())
+        .column("what it shows", |[_, shows, _]| shows.clone())
+        .column("of the whole picture", |[.., part]| part.clone())
+        .finish();
+    outln!("{}", table.to_text());
     outln!("The pictures are in {}.", args.out.display());
     Ok(())
 }

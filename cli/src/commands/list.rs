@@ -2,7 +2,7 @@
 
 use crate::args::ListArgs;
 use crate::failure::Failure;
-use crate::table::wrap_text;
+use crate::paragraph::wrap_text;
 use serde_json::{Value, json};
 use straightline_codegen::{Kernel, OptionInfo, OptionKind, shorten};
 use straightline_engines::{Engine, engine_names};

@@ -3,10 +3,10 @@
 use super::study::isa::SERVE;
 use crate::args::Family;
 use crate::failure::Failure;
-use crate::table;
 use serde_json::{Value, json};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_isa::{Compiler, Report};
+use straightline_table::Table;
 
 /// Machine code, and the compiler's name for its GPU.
 pub struct Machine {
@@ -32,12 +32,11 @@ impl Machine {
 
     /// Prints the statistics, and with `code` the machine code.
     pub fn print(&self, code: bool) {
-        let rows = self
-            .report
-            .figures
-            .named_figures()
-            .map(|(name, figure)| vec![name.to_owned(), figure.to_string()]);
-        out!("\n{}", table::render_table(&[&self.device, "a wave"], &rows));
+        let table = Table::of(self.report.figures.named_figures())
+            .column(&*self.device, |(name, _)| *name)
+            .column("a wave", |(_, figure)| *figure)
+            .finish();
+        out!("\n{}", table.to_text());
         if code {
             out!("\n{}", self.report.assembly);
         }

@@ -320,12 +320,17 @@ fn compilers_are_compared_and_recorded() {
     let (out, sobel) = (out.to_str().unwrap(), format!("{}::sobel", example("sobel")));
     let table = finishes(&["study", "isa", "--from", &sobel, "--family", "navi21", "--out", out]);
     for row in [
-        "sobel, unrolled, naga",
-        "sobel, looped, naga",
-        "sobel, unrolled, 2x2 pixels, naga",
-        "sobel, unrolled, shared by workgroups, naga",
+        "sobel unrolled naga",
+        "sobel looped naga",
+        "sobel partial(2) naga",
+        "sobel unrolled, 2×2 pixels naga",
+        "sobel unrolled, shared by workgroups naga",
     ] {
-        assert!(table.contains(row), "{row} is not in {table}");
+        let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            table.lines().any(|line| words(line).starts_with(row)),
+            "{row} is not in {table}"
+        );
     }
     for file in ["isa.json", "isa.csv", "report.html"] {
         assert!(Path::new(out).join(file).is_file(), "{file}");

@@ -105,6 +105,33 @@ fn further_settings_are_varied() {
     assert!(reads("true") >= reads("false"), "{record}");
 }
 
+/// Two shaders that are equal are recognised, and their ratio is marked as noise.
+#[test]
+fn equal_shaders_show_the_noise() {
+    let folder = scratch("sweep-noise");
+    let out = folder.join("out");
+    let text = "pub fn copy(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel)\n}\n";
+    let kernel = write(&folder, "copy.rs", text);
+    let more = [
+        "--vary",
+        "repeat-loads=false,true",
+        "--unroll",
+        "full",
+        "--baseline",
+        "repeat-loads=false",
+    ];
+    let table = sweep(&kernel, &out, &more);
+    let hashes: Vec<_> = variants(&record(&out))
+        .iter()
+        .map(|of| of["measured"]["hash"].clone())
+        .collect();
+    assert_eq!(hashes[0], hashes[1]);
+    assert!(table.contains("A pair of equal shaders has a ratio of"), "{table}");
+    let other = table.lines().find(|line| line.starts_with("true")).expect("a row");
+    assert!(other.contains(" ≈ "), "{table}");
+    assert_eq!(record(&out)["intervals"], "blocks");
+}
+
 #[test]
 fn what_is_refused_stays_in_the_record_with_the_reason() {
     let folder = scratch("sweep-refused");

@@ -2,18 +2,17 @@
 
 use super::Asking;
 use super::IsaStudyError;
-use crate::loops::Subject;
-use crate::record::{IsaForm, SpirvPath};
+use crate::loops::forms::Forms;
+use crate::record::{FormKind, SpirvPath};
 use std::path::Path;
 use std::process::Command;
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::ir::{Invocation, print};
-use straightline_codegen::{Compiled, EmitOptions, Kernel, Math, ReadOrder, Settings, Share, Stage, Unroll};
-use straightline_kernels::OptionText;
+use straightline_codegen::ir::Invocation;
+use straightline_codegen::{Compiled, EmitOptions, Stage};
 
 /// A form translated to SPIR-V in one way.
 pub struct Spirv {
-    pub kind: IsaForm,
+    pub kind: FormKind,
     pub path: SpirvPath,
     pub entry: String,
     /// Maximum number of live scalars, for emitted text.
@@ -25,24 +24,30 @@ pub struct Spirv {
 /// Returns all forms of a kernel, translated by naga and, if available, by glslang.
 pub fn emit_forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>, IsaStudyError> {
     let subject = &asking.subject;
+    let forms = Forms::from_subject(subject, false).map_err(|errors| IsaStudyError::Kernel {
+        name: subject.name.clone(),
+        errors,
+    })?;
     let mut all = Vec::new();
-    for kind in IsaForm::ALL {
-        let Some(compiled) = compile_form(subject, kind)? else {
+    for (kind, compiled) in &forms.made {
+        let has_loops = compiled.in_blocks().counts.loops > 0;
+        // The bound on loops is a way to SPIR-V here.
+        if kind.is_unbounded() || *kind == FormKind::Floor || (*kind == FormKind::Looped && !has_loops) {
             continue;
-        };
+        }
         for path in SpirvPath::ALL {
             let is_asked = match path {
                 SpirvPath::Naga => true,
-                SpirvPath::NagaBounded => compiled.in_blocks().counts.loops > 0,
+                SpirvPath::NagaBounded => has_loops,
                 SpirvPath::Glslang => glslang.is_some(),
             };
             if is_asked {
-                all.push(emit_spirv(path, kind, &compiled, glslang));
+                all.push(emit_spirv(path, *kind, compiled, glslang));
             }
         }
     }
     all.extend(asking.slang.map(|wgsl| Spirv {
-        kind: IsaForm::Slang,
+        kind: FormKind::Slang,
         path: SpirvPath::Naga,
         entry: subject.kernel.name().to_owned(),
         alive: None,
@@ -60,7 +65,7 @@ fn by_naga(wgsl: &str) -> Result<Vec<u8>, String> {
     Ok(words.into_iter().flat_map(u32::to_le_bytes).collect())
 }
 
-fn emit_spirv(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Option<&Path>) -> Spirv {
+fn emit_spirv(path: SpirvPath, kind: FormKind, compiled: &Compiled, glslang: Option<&Path>) -> Spirv {
     let stage = match compiled.graph.invocation {
         Invocation::Lane => Stage::Fragment,
         _ => Stage::Compute,
@@ -84,47 +89,6 @@ fn emit_spirv(path: SpirvPath, kind: IsaForm, compiled: &Compiled, glslang: Opti
         entry,
         alive,
         module,
-    }
-}
-
-fn compile_form(subject: &Subject, kind: IsaForm) -> Result<Option<Compiled>, IsaStudyError> {
-    let settings = |unroll, options: &[OptionText]| Settings::new().unroll(unroll).set_all(options.to_vec());
-    let compile = |kernel: &Kernel, settings: &Settings| {
-        kernel.compile(settings).map_err(|errors| IsaStudyError::Kernel {
-            name: subject.name.clone(),
-            errors,
-        })
-    };
-    let ours = |settings: Settings| compile(&subject.kernel, &settings).map(Some);
-    match (kind, &subject.by_hand) {
-        (IsaForm::Unrolled, _) => ours(settings(Unroll::Full, &subject.options)),
-        (IsaForm::Looped, _) => {
-            let looped = compile(&subject.kernel, &settings(Unroll::None, &subject.options))?;
-            Ok((looped.in_blocks().counts.loops > 0).then_some(looped))
-        }
-        (IsaForm::ByHand, Ok(hand)) => compile(&hand.kernel, &settings(Unroll::None, &hand.options)).map(Some),
-        (IsaForm::ByHand, Err(_)) | (IsaForm::Slang, _) => Ok(None),
-        (IsaForm::Block, _) => {
-            let block = settings(Unroll::Full, &subject.options).block(2, 2);
-            // Some kernels have no such form, and report that when it is requested.
-            Ok(subject.kernel.compile(&block).ok())
-        }
-        (IsaForm::Fast, _) => {
-            let full = settings(Unroll::Full, &subject.options);
-            let exact = compile(&subject.kernel, &full)?;
-            let fast = full.math(Math::Fast);
-            let fast = compile(&subject.kernel, &fast)?;
-            Ok((print(&fast.graph) != print(&exact.graph)).then_some(fast))
-        }
-        (IsaForm::Gather, _) => {
-            let gather = settings(Unroll::Full, &subject.options).reads(ReadOrder::Gather);
-            let gather = subject.kernel.compile(&gather).ok();
-            Ok(gather.filter(|compiled| !compiled.gathered.is_empty()))
-        }
-        (IsaForm::Tile, _) => {
-            let tile = settings(Unroll::Full, &subject.options).share(Share::WORKGROUP);
-            Ok(subject.kernel.compile(&tile).ok())
-        }
     }
 }
 

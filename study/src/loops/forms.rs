@@ -6,11 +6,10 @@ use std::rc::Rc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use straightline_bench::execute::{Bench, Inputs, Uploaded, Uploads};
+use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::ir::print;
-use straightline_codegen::{
-    Compiled, EmitOptions, Format, Kernel, Math, Precision, ReadOrder, Settings, Share, Stage, Unroll,
-};
+use straightline_codegen::{Compiled, EmitOptions, Format, Math, Precision, ReadOrder, Settings, Share, Stage, Unroll};
 use straightline_runtime::{Pass, PassOptions};
 
 /// A kernel in every available form, looped first, and the reasons for missing forms.
@@ -29,94 +28,65 @@ impl Forms {
     /// # Errors
     ///
     /// If the kernel is invalid, looped or unrolled, or its hand-written version is.
-    pub fn from_subject(subject: &Subject, half: bool) -> Result<Forms, LoopsError> {
+    pub fn from_subject(subject: &Subject, half: bool) -> Result<Forms, Errors> {
         let settings = |unroll| Settings::new().unroll(unroll).set_all(subject.options.clone());
-        let compile = |kernel: &Kernel, settings: &Settings| {
-            kernel.compile(settings).map_err(|errors| LoopsError::Kernel {
-                name: subject.name.clone(),
-                errors,
+        let unrolled = || settings(Unroll::Full);
+        let full = subject.kernel.compile(&unrolled())?;
+        let looped = subject.kernel.compile(&settings(Unroll::None))?;
+        let has_loops = looped.in_blocks().counts.loops > 0;
+        let message = |errors: Errors| errors.first_message().to_owned();
+        let compile = |settings: Settings| subject.kernel.compile(&settings).map_err(message);
+        // Forms that are another one under another name are left out.
+        let unless = |compiled: Result<Compiled, String>, is_same: &dyn Fn(&Compiled) -> bool, why: &str| {
+            compiled.and_then(|compiled| {
+                if is_same(&compiled) {
+                    Err(why.to_owned())
+                } else {
+                    Ok(compiled)
+                }
             })
         };
-        let full = compile(&subject.kernel, &settings(Unroll::Full))?;
-        let looped = compile(&subject.kernel, &settings(Unroll::None))?;
-        let has_loops = looped.in_blocks().counts.loops > 0;
         let (mut made, mut absent) = (Vec::new(), Vec::new());
         for kind in FormKind::ALL {
             let outcome: Result<Compiled, String> = match kind {
-                FormKind::Looped => Ok(looped.clone()),
-                FormKind::Full => Ok(full.clone()),
                 FormKind::LoopedUnchecked | FormKind::Partial2 | FormKind::Partial4 if !has_loops => {
                     Err("no loop of it can be left in the shader".to_owned())
                 }
-                FormKind::LoopedUnchecked => Ok(looped.clone()),
+                FormKind::Looped | FormKind::LoopedUnchecked => Ok(looped.clone()),
                 FormKind::LoopedByHand | FormKind::LoopedByHandUnchecked => match &subject.by_hand {
                     Err(why) => Err(why.clone()),
                     Ok(by_hand) => {
                         let settings = Settings::new().unroll(Unroll::None).set_all(by_hand.options.clone());
-                        Ok(compile(&by_hand.kernel, &settings)?)
+                        Ok(by_hand.kernel.compile(&settings)?)
                     }
                 },
-                FormKind::Partial2 => subject
-                    .kernel
-                    .compile(&settings(Unroll::Partial(2)))
-                    .map_err(|errors| errors.first_message().to_owned()),
-                FormKind::Partial4 => subject
-                    .kernel
-                    .compile(&settings(Unroll::Partial(4)))
-                    .map_err(|errors| errors.first_message().to_owned()),
-                FormKind::FullUnshared => {
-                    let settings = settings(Unroll::Full).repeat_loads(true);
-                    let unshared = subject
-                        .kernel
-                        .compile(&settings)
-                        .map_err(|errors| errors.first_message().to_owned());
-                    unshared.and_then(|unshared| match read_count(&unshared) == read_count(&full) {
-                        true => Err("the source asks for each read once, as the full form does".to_owned()),
-                        false => Ok(unshared),
-                    })
-                }
-                FormKind::FullBlock => {
-                    let settings = settings(Unroll::Full).block(2, 2);
-                    subject
-                        .kernel
-                        .compile(&settings)
-                        .map_err(|errors| errors.first_message().to_owned())
-                }
-                FormKind::FullTile => {
-                    let settings = settings(Unroll::Full).share(Share::WORKGROUP);
-                    subject
-                        .kernel
-                        .compile(&settings)
-                        .map_err(|errors| errors.first_message().to_owned())
-                }
-                FormKind::FullGather => {
-                    let settings = settings(Unroll::Full).reads(ReadOrder::Gather);
-                    let gathered = subject
-                        .kernel
-                        .compile(&settings)
-                        .map_err(|errors| errors.first_message().to_owned());
-                    gathered.and_then(|compiled| match compiled.gathered.is_empty() {
-                        true => Err("no four texels of one component are read together".to_owned()),
-                        false => Ok(compiled),
-                    })
-                }
-                FormKind::FullFast => {
-                    let settings = settings(Unroll::Full).math(Math::Fast);
-                    let fast = subject
-                        .kernel
-                        .compile(&settings)
-                        .map_err(|errors| errors.first_message().to_owned());
-                    fast.and_then(|fast| match print(&fast.graph) == print(&full.graph) {
-                        true => Err("fast mathematics has nothing to do in it".to_owned()),
-                        false => Ok(fast),
-                    })
-                }
+                FormKind::Partial2 => compile(settings(Unroll::Partial(2))),
+                FormKind::Partial4 => compile(settings(Unroll::Partial(4))),
+                FormKind::FullUnshared => unless(
+                    compile(unrolled().repeat_loads(true)),
+                    &|unshared| read_count(unshared) == read_count(&full),
+                    "the source asks for each read once, as the full form does",
+                ),
+                FormKind::Full => Ok(full.clone()),
+                FormKind::FullBlock => compile(unrolled().block(2, 2)),
+                FormKind::FullTile => compile(unrolled().share(Share::WORKGROUP)),
+                FormKind::FullGather => unless(
+                    compile(unrolled().reads(ReadOrder::Gather)),
+                    &|compiled| compiled.gathered.is_empty(),
+                    "no four texels of one component are read together",
+                ),
+                FormKind::FullFast => unless(
+                    compile(unrolled().math(Math::Fast)),
+                    &|fast| print(&fast.graph) == print(&full.graph),
+                    "fast mathematics has nothing to do in it",
+                ),
                 FormKind::FullHalf if !half => Err("the device has no half precision (SHADER_F16)".to_owned()),
                 FormKind::FullHalf => match full.emit(&emit_options(kind)) {
                     Ok(_) => Ok(full.clone()),
-                    Err(errors) => Err(errors.first_message().to_owned()),
+                    Err(errors) => Err(message(errors)),
                 },
-                FormKind::Floor => full.floor().map_err(|errors| errors.first_message().to_owned()),
+                FormKind::Floor => full.floor().map_err(message),
+                FormKind::Slang => continue,
             };
             match outcome {
                 Ok(compiled) => made.push((kind, compiled)),
@@ -132,16 +102,11 @@ fn read_count(compiled: &Compiled) -> u32 {
     compiled.in_blocks().counts.reads.values().sum()
 }
 
-/// Returns whether wgpu must not bound the loops of a form.
-fn is_unbounded(kind: FormKind) -> bool {
-    matches!(kind, FormKind::LoopedUnchecked | FormKind::LoopedByHandUnchecked)
-}
-
 fn emit_options(kind: FormKind) -> EmitOptions {
     EmitOptions::new()
         .stage(Stage::Compute)
         .format(Format::Rgba32Float)
-        .unbounded_loops(is_unbounded(kind))
+        .unbounded_loops(kind.is_unbounded())
         .precision(match kind {
             FormKind::FullHalf => Precision::F16,
             _ => Precision::F32,
@@ -193,6 +158,11 @@ pub struct Ready {
 }
 
 impl Ready {
+    /// Returns the hash of the WGSL.
+    pub fn hash(&self) -> Option<String> {
+        self.emitted.manifest.hashes.get("wgsl").cloned()
+    }
+
     /// Returns the size of the SPIR-V in bytes.
     pub fn spirv_bytes(&self) -> usize {
         self.emitted.files.get(&Target::Spirv).map_or(0, Vec::len)
@@ -238,7 +208,7 @@ impl<'a> Stand<'a> {
         let emitted = compiled
             .emit(&emit_options(kind))
             .map_err(straightline_bench::execute::ExecuteError::from)?;
-        let options = PassOptions::default().unbounded_loops(is_unbounded(kind));
+        let options = PassOptions::default().unbounded_loops(kind.is_unbounded());
         let mut made = Vec::new();
         for _ in 0..times.max(1) {
             let unseen = make_uncached(&emitted);
@@ -282,6 +252,7 @@ impl<'a> Stand<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use straightline_codegen::Kernel;
 
     #[test]
     fn a_text_is_unseen_each_time() {

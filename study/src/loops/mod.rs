@@ -3,12 +3,14 @@
 //! All forms of a kernel are timed in turn, round by round. The speedup over the looped form is computed within each round,
 //! so that a slowdown of a whole round cancels.
 
-mod forms;
+pub(crate) mod forms;
 mod subjects;
 pub(crate) mod truth;
 
 use crate::progress::Progress;
 use crate::record::{FormKind, FormRecord, KernelForms};
+use crate::statistics::Interval;
+use crate::turns::run_in_turn;
 use forms::{Forms, Ready, Stand};
 use glam::{UVec2, Vec4};
 use std::time::Duration;
@@ -117,7 +119,10 @@ fn measure_subject(
     progress: &mut dyn Progress,
 ) -> Result<Option<Studied>, LoopsError> {
     let half = bench.device().features().contains(wgpu::Features::SHADER_F16);
-    let forms = Forms::from_subject(subject, half)?;
+    let forms = Forms::from_subject(subject, half).map_err(|errors| LoopsError::Kernel {
+        name: subject.name.clone(),
+        errors,
+    })?;
     progress.begin(&subject.name, forms.made.len() + 1 + setup.rounds as usize);
     let inputs = truth.inputs(subject, &forms.full)?;
     if progress.is_stopped() {
@@ -148,28 +153,32 @@ fn measure_subject(
         progress.step();
     }
 
-    let jobs: Vec<Job<'_>> = ready
-        .iter()
-        .map(|(form, _)| Job {
+    let works = ready.iter().map(|(form, _)| {
+        let job = Job {
             pass: &form.pass,
             uploaded: &form.uploaded,
             size: setup.size,
-        })
-        .collect();
-    let timed = bench.timed_for(&jobs, setup.rounds, setup.least, |round| {
-        if round > 0 {
-            progress.step();
-        }
-        !progress.is_stopped()
-    })?;
+        };
+        bench.job_work(job, setup.least)
+    });
+    let timed = run_in_turn(
+        bench,
+        &mut works.collect::<Result<Vec<_>, _>>()?,
+        setup.rounds,
+        progress,
+    )?;
     let mut measured = Vec::new();
     for (k, (form, off)) in ready.iter().enumerate() {
-        let (Some(time), Some(ratio)) = (timed.times(k), timed.ratio(0, k)) else {
+        let (Some(looped), Some(time)) = (timed.times(0), timed.times(k)) else {
+            continue;
+        };
+        let Some(ratio) = Interval::of_ratio(&looped.rounds_ms, &time.rounds_ms) else {
             continue;
         };
         let counts = &form.emitted.manifest.counts;
         measured.push(FormRecord {
             kind: form.kind,
+            hash: form.hash(),
             loops: counts.loops,
             statements: counts.statements,
             reads: counts.reads.values().sum(),

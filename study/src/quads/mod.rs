@@ -7,7 +7,8 @@ mod subject;
 
 use crate::progress::Progress;
 use crate::record::{QuadWay, QuadsRecord};
-use crate::sweep::median_of;
+use crate::statistics::{CONFIDENCE, Interval};
+use crate::turns::run_in_turn;
 use families::{FAMILIES, Source};
 use glam::{UVec2, Vec4};
 use inputs::{low_resolution, screen_inputs};
@@ -27,9 +28,6 @@ const QUAD: [u32; 2] = [2, 2];
 
 /// Width and height of the row of quads that one invocation computes (§2.8), in pixels.
 const ROW: [u32; 2] = [8, 2];
-
-/// Confidence of the intervals of ratios.
-const CONFIDENCE: f64 = 0.95;
 
 /// Setup of a study.
 #[derive(Clone, Copy, Debug)]
@@ -193,18 +191,14 @@ fn time_subjects(
     coordinates: &Forward,
     progress: &mut dyn Progress,
 ) -> Result<Vec<Vec<f64>>, ExecuteError> {
-    progress.begin(&format!("timing {} shaders", subjects.len()), setup.rounds as usize + 1);
+    progress.begin(&format!("timing {} shaders", subjects.len()), setup.rounds as usize);
     let works: Result<Vec<Work<'_>>, _> = subjects
         .iter()
         .map(|subject| subject.work(bench, setup))
         .chain([bench.draw_work(coordinates, setup.least)])
         .collect();
-    let timed = bench.in_turn(&mut works?, setup.rounds, |_| {
-        progress.step();
-        !progress.is_stopped()
-    })?;
-    let milliseconds = |rounds: &Vec<Duration>| rounds.iter().map(|t| t.as_secs_f64() * 1.0e3).collect();
-    Ok(timed.rounds.iter().map(milliseconds).collect())
+    let timed = run_in_turn(bench, &mut works?, setup.rounds, progress)?;
+    Ok(timed.rounds_ms())
 }
 
 fn build_ways(
@@ -224,12 +218,7 @@ fn build_ways(
         let same = |other: &Subject| other.family.name == subject.family.name;
         let first = subjects.iter().position(same).unwrap_or(k);
         let rounds_ms = whole(k);
-        let ratios: Vec<f64> = whole(first)
-            .iter()
-            .zip(&rounds_ms)
-            .map(|(base, own)| base / own)
-            .collect();
-        let Some(speedup) = median_of(&ratios, CONFIDENCE) else {
+        let Some(speedup) = Interval::of_ratio(&whole(first), &rounds_ms) else {
             continue;
         };
         let forward = subject.family.from == Source::Triangles;
@@ -239,6 +228,7 @@ fn build_ways(
             filter: subject.family.name.to_owned(),
             way: subject.way.to_owned(),
             transport: subject.transport.clone(),
+            hash: subject.hash.clone(),
             stage: subject.stage,
             forward,
             reads: subject.counts.texture_reads,
@@ -255,7 +245,7 @@ fn build_ways(
 }
 
 fn median_or_zero(values: &[f64]) -> f64 {
-    median_of(values, CONFIDENCE).map_or(0.0, |of| of.median)
+    Interval::of_median(values, CONFIDENCE).map_or(0.0, |of| of.median)
 }
 
 /// Returns the mean and largest difference over all colours of the covered pixels; of all pixels without a coverage. A

@@ -5,6 +5,7 @@ use super::{QUAD, QuadsError, Setup};
 use glam::Vec4;
 use straightline_bench::execute::{Bench, ExecuteError, Forward, Inputs, Job, Shadowed, Uploaded, Work};
 use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Transport};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{Counts, Stage};
@@ -20,6 +21,8 @@ pub struct Subject {
     pub transport: String,
     pub stage: Stage,
     pub counts: Counts,
+    /// Hash of the WGSL.
+    pub hash: Option<String>,
     pub image: Frame<Vec4>,
     drawn: Drawn,
 }
@@ -50,17 +53,17 @@ impl Subject {
             Transport::Block => Stage::Compute,
             _ => Stage::Fragment,
         };
-        let (drawn, image, counts) = if family.from == Source::Triangles && stage == Stage::Fragment {
+        let (drawn, image, manifest) = if family.from == Source::Triangles && stage == Stage::Fragment {
             let forward = bench.prepare_forward(&compiled, inputs, &shadowed.corners)?;
             let image = bench.draw_forward(&forward)?;
-            let emitted = compiled.emit(&EmitOptions::new().stage(stage).targets([]));
-            let counts = emitted.map_err(ExecuteError::from)?.manifest.counts;
-            (Drawn::Forward(Box::new(forward)), image, counts)
+            let emitted = compiled.emit(&EmitOptions::new().stage(stage).targets([Target::Wgsl]));
+            let manifest = emitted.map_err(ExecuteError::from)?.manifest;
+            (Drawn::Forward(Box::new(forward)), image, manifest)
         } else {
             let (pass, manifest) = bench.compile_pass(&compiled, stage)?;
             let uploaded = bench.upload(&manifest, inputs)?;
             let image = bench.run(&compiled, stage, inputs)?;
-            (Drawn::Pass(Box::new(pass), uploaded), image, manifest.counts)
+            (Drawn::Pass(Box::new(pass), uploaded), image, manifest)
         };
         Ok(Subject {
             family,
@@ -68,11 +71,12 @@ impl Subject {
             transport: match transport {
                 Transport::Block if block != QUAD => format!("block {}x{}", block[0], block[1]),
                 Transport::Block => transport.to_string(),
-                _ if counts.messages > 0 => transport.to_string(),
+                _ if manifest.counts.messages > 0 => transport.to_string(),
                 _ => "none".to_owned(),
             },
             stage,
-            counts,
+            hash: manifest.hashes.get("wgsl").cloned(),
+            counts: manifest.counts,
             image,
             drawn,
         })

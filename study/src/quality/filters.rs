@@ -6,6 +6,7 @@ use super::shot::Shot;
 use super::{QualityError, check_stopped};
 use crate::baselines::{Smaa, Transfer, apply_mlaa, fxaa_kernel};
 use crate::progress::Progress;
+use crate::turns::run_in_turn;
 use glam::{UVec2, Vec3, Vec4, vec4};
 use std::time::Instant;
 use straightline_bench::execute::{Bench, ExecuteError, Inputs, Job, Timed, Uploaded, Work, texture_bytes};
@@ -195,10 +196,7 @@ impl<'a> Filters<'a> {
             places.push(Some(works.len()));
             works.push(work);
         }
-        let timed = self.bench.in_turn(&mut works, rounds, |_| {
-            progress.step();
-            !progress.is_stopped()
-        })?;
+        let timed = run_in_turn(self.bench, &mut works, rounds, progress)?;
         drop(works);
         Ok((timed, places))
     }

@@ -229,7 +229,7 @@ fn of_capture(
 /// Counts the steps of `progress`.
 fn count_steps(sources: &[Source], listed: &[Method], setup: &Setup) -> usize {
     let drawn = sources.iter().filter(|s| matches!(s, Source::Scene { .. })).count();
-    let timing = setup.rounds as usize + 1;
+    let timing = setup.rounds as usize;
     let mut steps = 0;
     if drawn > 0 {
         steps += listed.len();
@@ -352,7 +352,7 @@ fn time_methods(
 
 fn put_times(errors: &mut SceneErrors, times: &[Option<Times>]) {
     for (method, time) in errors.methods.iter_mut().zip(times) {
-        method.time = *time;
+        method.time = time.clone();
     }
 }
 

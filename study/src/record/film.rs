@@ -3,6 +3,7 @@
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
 use straightline_kernels::OptionText;
+use straightline_table::{Cell, Table};
 
 /// Record of a film: errors of the change between frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,11 +42,28 @@ impl FilmedMethod {
 impl Record for FilmRecord {
     const STEM: &'static str = "film";
 
-    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
-        let rows = self.methods.iter().flat_map(|method| {
-            let errors = method.errors.iter().enumerate();
-            errors.map(|(k, error)| vec![method.method.clone(), (k + 1).to_string(), error.to_string()])
-        });
-        (vec!["method", "frame", "error"], rows.collect())
+    fn to_table(&self) -> Table {
+        let errors = |method: &'_ FilmedMethod| method.errors.clone().into_iter().enumerate();
+        let rows = self.methods.iter();
+        let rows = rows.flat_map(|method| errors(method).map(move |(k, error)| (method, k + 1, error)));
+        Table::of(rows)
+            .column("method", |(method, ..)| &method.method)
+            .column("frame", |(_, frame, _)| *frame)
+            .fixed("error", 4, |(.., error)| *error)
+            .finish()
+    }
+}
+
+impl FilmRecord {
+    /// Returns a table with a row for each method.
+    pub fn summarise(&self) -> Table {
+        let extreme = |method: &FilmedMethod, pick: fn(f64, f64) -> f64| method.errors.iter().copied().reduce(pick);
+        let error = |error: Option<f64>| error.map(|error| Cell::fixed(error, 4));
+        Table::of(&self.methods)
+            .column("method", |method| &method.method)
+            .column("error of what changes", |method| error(Some(method.rms_error())))
+            .column("least", |method| error(extreme(method, f64::min)))
+            .column("most", |method| error(extreme(method, f64::max)))
+            .finish()
     }
 }

@@ -1,9 +1,10 @@
 //! Record of the time of a whole frame against its error.
 
-use super::{Circumstances, Family, Record};
+use super::{Circumstances, Family, Record, format_megabytes, join_options};
+use crate::statistics::Interval;
 use serde::{Deserialize, Serialize};
-use straightline_bench::execute::Quartiles;
 use straightline_kernels::OptionText;
+use straightline_table::{Cell, Column, Table, TableBuilder};
 
 /// Passes of a frame of one scene, as part of the output of `budget --record`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -25,7 +26,7 @@ pub struct TimedPass {
     /// Samples of each pixel.
     pub samples: u32,
     /// Time in milliseconds.
-    pub ms: Quartiles,
+    pub ms: Interval,
 }
 
 /// A method with the parts of its frame.
@@ -86,38 +87,50 @@ pub struct FrameRecord {
 impl Record for FrameRecord {
     const STEM: &'static str = "frame";
 
-    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
-        let head = vec![
-            "method",
-            "options",
-            "psnr_db",
-            "error",
-            "geometry_ms",
-            "shading_samples",
-            "filter_ms",
-            "bytes",
-            "shading_ms",
-            "frame_ms",
-            "best",
-        ];
-        let rows = self.methods.iter().flat_map(|m| {
-            let options: Vec<String> = m.options.iter().map(|(k, v)| format!("{k}={v}")).collect();
-            m.frames.iter().zip(&self.shading_ms).map(move |(frame, shading)| {
-                vec![
-                    m.method.clone(),
-                    options.join(" "),
-                    format!("{:.3}", m.psnr),
-                    format!("{:.6}", m.error),
-                    format!("{:.3}", m.geometry_ms),
-                    m.shaded.to_string(),
-                    format!("{:.3}", m.filter_ms),
-                    m.bytes.to_string(),
-                    shading.to_string(),
-                    format!("{:.3}", frame.ms),
-                    frame.is_best.to_string(),
-                ]
-            })
+    /// Formats a tidy table: a row for each method and cost of shading.
+    fn to_table(&self) -> Table {
+        let rows = self.methods.iter();
+        let rows = rows.flat_map(|method| {
+            method
+                .frames
+                .iter()
+                .zip(&self.shading_ms)
+                .map(move |cost| (method, cost))
         });
-        (head, rows.collect())
+        let table = Table::of(rows).column("method", |(method, _)| &method.method);
+        parts_of_frames(table, |(method, _)| method)
+            .fixed("shading_ms", 1, |(_, (_, ms))| **ms)
+            .fixed("frame_ms", 1, |(_, (frame, _))| frame.ms)
+            .column("best", |(_, (frame, _))| frame.is_best)
+            .finish()
+    }
+}
+
+/// Adds the columns of a method that do not depend on the cost of shading.
+fn parts_of_frames<R>(table: TableBuilder<R>, method: impl Fn(&R) -> &FrameMethod + Copy) -> TableBuilder<R> {
+    table
+        .column(Column::exact("options"), |row| join_options(&method(row).options))
+        .fixed("error", 4, |row| method(row).error)
+        .fixed(("psnr_db", "PSNR"), 2, |row| method(row).psnr)
+        .fixed(("geometry_ms", "geometry, ms"), 1, |row| method(row).geometry_ms)
+        .column(("shading_samples", "shading samples"), |row| method(row).shaded)
+        .fixed(("filter_ms", "filter, ms"), 1, |row| method(row).filter_ms)
+        .column(("bytes", "MB"), |row| format_megabytes(method(row).bytes, 0))
+}
+
+impl FrameRecord {
+    /// Returns a table with a row for each method, and `best` beside frames that no other beats.
+    pub fn summarise(&self, best: &str) -> Table {
+        let table = Table::of(&self.methods).column("method", |method| &method.method);
+        parts_of_frames(table, |method| method)
+            .columns(
+                self.shading_ms.iter().enumerate(),
+                |(_, ms)| Column::shown(format!("frame at {ms} ms")),
+                |method, (k, _)| {
+                    let frame = method.frames[*k];
+                    Cell::fixed(frame.ms, 1).suffixed(if frame.is_best { best } else { "" })
+                },
+            )
+            .finish()
     }
 }

@@ -3,6 +3,7 @@
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
 use straightline_kernels::OptionText;
+use straightline_table::{Cell, Table};
 
 /// Executor of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -127,42 +128,24 @@ impl HardRecord {
 impl Record for HardRecord {
     const STEM: &'static str = "hard";
 
-    fn to_table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
-        let head = vec![
-            "case",
-            "kernel",
-            "precision",
-            "executor",
-            "pixels",
-            "non_finite",
-            "difference",
-            "ulps",
-            "bound",
-            "kept",
-            "promised",
-            "born",
-            "refused",
-        ];
-        let optional = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.3e}"));
-        let rows = self.cases.iter().flat_map(|case| {
-            case.results.iter().map(move |r| {
-                vec![
-                    case.name.clone(),
-                    r.kernel.clone(),
-                    r.precision.clone(),
-                    super::json_name(&r.executor),
-                    r.pixels.to_string(),
-                    r.non_finite.to_string(),
-                    optional(r.difference),
-                    optional(r.ulps),
-                    optional(r.bound),
-                    r.kept.to_string(),
-                    r.promised.to_string(),
-                    r.born.clone().unwrap_or_default(),
-                    r.refused.clone().unwrap_or_default(),
-                ]
-            })
-        });
-        (head, rows.collect())
+    fn to_table(&self) -> Table {
+        let rows = self.cases.iter();
+        let rows = rows.flat_map(|case| case.results.iter().map(move |result| (&case.name, result)));
+        let off = |value: Option<f64>| value.map(|value| Cell::scientific(value, 1));
+        Table::of(rows)
+            .column("case", |(case, _)| *case)
+            .column("kernel", |(_, r)| &r.kernel)
+            .column("precision", |(_, r)| &r.precision)
+            .column("executor", |(_, r)| super::json_name(&r.executor))
+            .column("pixels", |(_, r)| r.pixels)
+            .column("non_finite", |(_, r)| r.non_finite)
+            .column("difference", |(_, r)| off(r.difference))
+            .column("ulps", |(_, r)| off(r.ulps))
+            .column("bound", |(_, r)| off(r.bound))
+            .column("kept", |(_, r)| r.kept)
+            .column("promised", |(_, r)| r.promised)
+            .column("born", |(_, r)| r.born.as_ref())
+            .column("refused", |(_, r)| r.refused.as_ref())
+            .finish()
     }
 }

@@ -1,90 +1,20 @@
 //! Record of unrolled against looped forms.
 
-use super::{Circumstances, Record};
+use super::{Circumstances, FormKind, Record};
+use crate::statistics::{Interval, Noise, mark_ratio};
 use serde::{Deserialize, Serialize};
-use straightline_bench::execute::{Ratio, Times};
+use straightline_bench::execute::Times;
 use straightline_kernels::OptionText;
-
-/// Form of a kernel's loops.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum FormKind {
-    /// Loops left in the shader, as wgpu compiles them: with a bound on the iterations of each. The baseline of all
-    /// comparisons.
-    Looped,
-    /// Loops left in the shader, without that bound.
-    LoopedUnchecked,
-    /// Hand-optimised loops: repeated reads are done once, into arrays.
-    LoopedByHand,
-    /// Hand-optimised loops without the bound, so that compilers can unroll them.
-    LoopedByHandUnchecked,
-    /// Loops left with two iterations in a row.
-    Partial2,
-    /// Loops left with four iterations in a row.
-    Partial4,
-    /// No loop left; each read as often as the source performs it.
-    FullUnshared,
-    /// No loop left; each distinct read once.
-    Full,
-    /// As `Full`, with 2x2 pixels per invocation.
-    FullBlock,
-    /// As `Full`, with reads shared by the pixels of a workgroup through its memory.
-    FullTile,
-    /// As `Full`, with gathers: four texels in one read, where several of them are needed.
-    FullGather,
-    /// As `Full`, with mathematics that may change roundings.
-    FullFast,
-    /// As `Full`, computed in half precision.
-    FullHalf,
-    /// The reads and the store of `Full`, with almost no arithmetic between: a lower bound for every form.
-    Floor,
-}
-
-impl FormKind {
-    /// Every form, in the order of tables.
-    pub const ALL: [FormKind; 14] = [
-        FormKind::Looped,
-        FormKind::LoopedUnchecked,
-        FormKind::LoopedByHand,
-        FormKind::LoopedByHandUnchecked,
-        FormKind::Partial2,
-        FormKind::Partial4,
-        FormKind::FullUnshared,
-        FormKind::Full,
-        FormKind::FullBlock,
-        FormKind::FullTile,
-        FormKind::FullGather,
-        FormKind::FullFast,
-        FormKind::FullHalf,
-        FormKind::Floor,
-    ];
-
-    /// A name for people.
-    pub fn display_name(self) -> &'static str {
-        match self {
-            FormKind::Looped => "looped",
-            FormKind::LoopedUnchecked => "looped, unbounded",
-            FormKind::LoopedByHand => "looped, hand-optimised",
-            FormKind::LoopedByHandUnchecked => "hand-optimised, unbounded",
-            FormKind::Partial2 => "partial(2)",
-            FormKind::Partial4 => "partial(4)",
-            FormKind::FullUnshared => "unrolled, loads not shared",
-            FormKind::Full => "unrolled",
-            FormKind::FullBlock => "unrolled, 2×2 pixels",
-            FormKind::FullTile => "unrolled, shared by workgroups",
-            FormKind::FullGather => "unrolled, gathered",
-            FormKind::FullFast => "unrolled, fast mathematics",
-            FormKind::FullHalf => "unrolled, f16",
-            FormKind::Floor => "floor",
-        }
-    }
-}
+use straightline_table::{Cell, Column, Table};
 
 /// A kernel in one form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FormRecord {
     /// Kind of the form.
     pub kind: FormKind,
+    /// Hash of its WGSL: FNV-1a of 64 bits; `None` in records from before it was introduced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hash: Option<String>,
     /// Number of loops left.
     pub loops: u32,
     /// Statements of the emitted text.
@@ -100,7 +30,7 @@ pub struct FormRecord {
     /// Time of a frame.
     pub time: Times,
     /// Speedup over `Looped`.
-    pub ratio: Ratio,
+    pub ratio: Interval,
     /// Largest difference to the same kernel in `f64`, without the thousandth of the pixels that differ most; `None` for
     /// the floor, which computes nothing.
     pub difference_999: Option<f64>,
@@ -143,46 +73,65 @@ pub struct LoopsRecord {
 impl Record for LoopsRecord {
     const STEM: &'static str = "loops";
 
-    fn to_table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
-        let head = vec![
-            "kernel",
-            "form",
-            "loops",
-            "statements",
-            "reads",
-            "spirv_bytes",
-            "pipeline_ms",
-            "median_ms",
-            "min_ms",
-            "max_ms",
-            "speedup",
-            "speedup_low",
-            "speedup_high",
-            "off_f64_999",
-            "off_f64_largest",
-        ];
-        let optional = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.3e}"));
-        let rows = self.kernels.iter().flat_map(|kernel| {
-            kernel.forms.iter().map(move |form| {
-                vec![
-                    kernel.kernel.clone(),
-                    super::json_name(&form.kind),
-                    form.loops.to_string(),
-                    form.statements.to_string(),
-                    form.reads.to_string(),
-                    form.spirv_bytes.to_string(),
-                    format!("{:.3}", form.pipeline_ms),
-                    format!("{:.4}", form.time.median_ms),
-                    format!("{:.4}", form.time.min_ms),
-                    format!("{:.4}", form.time.max_ms),
-                    format!("{:.3}", form.ratio.median),
-                    format!("{:.3}", form.ratio.low),
-                    format!("{:.3}", form.ratio.high),
-                    optional(form.difference_999),
-                    optional(form.difference),
-                ]
+    fn to_table(&self) -> Table {
+        self.tabulate(&self.kernels)
+    }
+}
+
+impl LoopsRecord {
+    /// Returns the table of some of the kernels.
+    pub fn tabulate<'r>(&self, kernels: impl IntoIterator<Item = &'r KernelForms>) -> Table {
+        let noise = self.noise();
+        let rows = kernels.into_iter();
+        let rows = rows.flat_map(|kernel| kernel.forms.iter().map(move |form| (&kernel.kernel, form)));
+        let off = |value: Option<f64>| value.map(|value| Cell::scientific(value, 1));
+        Table::of(rows)
+            .column(Column::from("kernel").grouped(), |(kernel, _)| *kernel)
+            .column(Column::from("form").left(), |(_, form)| {
+                Cell::new(super::json_name(&form.kind), form.kind.display_name())
             })
-        });
-        (head, rows.collect())
+            .column("loops", |(_, form)| form.loops)
+            .column("statements", |(_, form)| form.statements)
+            .column("reads", |(_, form)| form.reads)
+            .column(("spirv_bytes", "SPIR-V, kB"), |(_, form)| {
+                Cell::new(
+                    form.spirv_bytes.to_string(),
+                    format!("{:.1}", form.spirv_bytes as f64 / 1e3),
+                )
+            })
+            .fixed(("pipeline_ms", "ready in, ms"), 0, |(_, form)| form.pipeline_ms)
+            .fixed(("median_ms", "ms"), 2, |(_, form)| form.time.median_ms)
+            .fixed(("min_ms", "least"), 2, |(_, form)| form.time.min_ms)
+            .fixed(("max_ms", "most"), 2, |(_, form)| form.time.max_ms)
+            .column(Column::interval("speedup"), |(_, form)| {
+                Cell::interval(form.ratio.to_array(), 2).suffixed(form.mark(noise))
+            })
+            .column(("off_f64_999", "off f64, 99.9 %"), |(_, form)| off(form.difference_999))
+            .column(("off_f64_largest", "largest"), |(_, form)| off(form.difference))
+            .column(Column::exact("hash"), |(_, form)| form.hash.as_ref())
+            .finish()
+    }
+
+    /// Returns the noise that equal forms show; `None` if no two are equal, or the record has no rounds.
+    pub fn noise(&self) -> Option<Noise> {
+        let kernels = self.kernels.iter().enumerate();
+        Noise::from_run(kernels.flat_map(|(group, kernel)| {
+            kernel.forms.iter().filter_map(move |form| {
+                // The bound on loops is no part of the text.
+                let is_unbounded = form.loops > 0 && form.kind.is_unbounded();
+                let shader = format!("{group} {} {is_unbounded}", form.hash.as_ref()?);
+                Some((shader, form.time.rounds_ms.as_slice()))
+            })
+        }))
+    }
+}
+
+impl FormRecord {
+    /// Returns the mark of the form's ratio, if it is within the noise.
+    pub fn mark(&self, noise: Option<Noise>) -> &'static str {
+        match self.kind {
+            FormKind::Looped => "",
+            _ => mark_ratio(noise, self.ratio.median),
+        }
     }
 }

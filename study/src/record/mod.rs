@@ -1,6 +1,7 @@
 //! Results of studies as files: JSON with its circumstances, and CSV. `README.md` and the report cite these.
 
 mod film;
+mod form;
 mod frame;
 mod hard;
 mod isa;
@@ -19,14 +20,18 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use straightline_bench::execute::Clock;
 use straightline_codegen::files;
+use straightline_kernels::OptionText;
+use straightline_table::{Cell, Table};
 
 pub use film::{FilmRecord, FilmedMethod};
+pub use form::FormKind;
 pub use frame::{Frame, FrameMethod, FrameRecord, PassTimes, TimedPass};
 pub use hard::{Executor, HalfVerdict, HardCase, HardRecord, HardResult};
-pub use isa::{Asked, IsaForm, IsaRecord, SpirvPath};
-pub use loops::{FormKind, FormRecord, KernelForms, LoopsRecord};
+pub use isa::{Asked, IsaRecord, SpirvPath};
+pub use loops::{FormRecord, KernelForms, LoopsRecord};
 pub use motion::{Motion, MotionRecord, MovedMethod, MovedScene};
 pub use quads::{QuadWay, QuadsRecord};
+pub(crate) use quality::format_decibels;
 pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors, Shares};
 pub use sweep::{Environment, Measured, Shard, SweepRecord, Swept};
 pub use tune::{Candidate, LeftOut, Model, Refused, TermWorth, TuneRecord};
@@ -49,8 +54,33 @@ pub struct Circumstances {
     pub size: [u32; 2],
     /// Rounds of timing; each ran every shader once, in turn.
     pub rounds: u32,
+    /// Kind of the record's intervals.
+    #[serde(default)]
+    pub intervals: IntervalKind,
     /// `true` if everything requested was measured, `false` if the run was interrupted.
     pub complete: bool,
+}
+
+/// Kind of the intervals of a record.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum IntervalKind {
+    /// Those of records from before the others: of times the extremes, of ratios the span of eight rounds in ten, of frames the
+    /// quartiles, of sweeps and quads 95 % by single rounds.
+    #[default]
+    Earlier,
+    /// 95 %, by a bootstrap of blocks of rounds.
+    Blocks,
+}
+
+impl IntervalKind {
+    /// Name for readers.
+    pub fn display_name(self) -> &'static str {
+        match self {
+            IntervalKind::Earlier => "intervals: eight rounds in ten, of frames the quartiles",
+            IntervalKind::Blocks => "intervals: 95 %, by blocks of rounds",
+        }
+    }
 }
 
 /// Maximum size of a record that is read, in bytes.
@@ -61,8 +91,8 @@ pub trait Record: Serialize + DeserializeOwned {
     /// Stem of the files' names.
     const STEM: &'static str;
 
-    /// Returns the headings and rows of the table.
-    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>);
+    /// Returns the results as a table.
+    fn to_table(&self) -> Table;
 
     /// Writes `STEM.json` and `STEM.csv` into `folder`, which is created if missing. Each file is either complete or
     /// unchanged.
@@ -96,7 +126,10 @@ pub trait Record: Serialize + DeserializeOwned {
             source,
         })?;
         text.push(b'\n');
-        Ok(BTreeMap::from([(json, text), (csv, self.to_csv().into_bytes())]))
+        Ok(BTreeMap::from([
+            (json, text),
+            (csv, self.to_table().to_csv().into_bytes()),
+        ]))
     }
 
     /// Reads a record from a JSON file, which may be compressed ([`read_file`]).
@@ -110,21 +143,6 @@ pub trait Record: Serialize + DeserializeOwned {
             path: path.to_owned(),
             source,
         })
-    }
-
-    /// Formats the table as CSV (RFC 4180).
-    fn to_csv(&self) -> String {
-        let quoted = |cell: &str| match cell.contains(['"', ',', '\n']) {
-            true => format!("\"{}\"", cell.replace('"', "\"\"")),
-            false => cell.to_owned(),
-        };
-        let (head, rows) = self.to_table();
-        let mut text = head.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n";
-        for row in rows {
-            text += &row.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",");
-            text.push('\n');
-        }
-        text
     }
 }
 
@@ -184,4 +202,15 @@ pub(crate) fn json_name(value: &impl Serialize) -> String {
         Ok(other) => other.to_string(),
         Err(_) => String::new(),
     }
+}
+
+/// Returns options as on a command line.
+pub fn join_options(options: &[OptionText]) -> String {
+    let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    words.join(" ")
+}
+
+/// Returns bytes as a cell: for readers in millions, with this many decimals.
+pub(crate) fn format_megabytes(bytes: u64, decimals: usize) -> Cell {
+    Cell::new(bytes.to_string(), format!("{:.decimals$}", bytes as f64 / 1e6))
 }

@@ -3,6 +3,7 @@
 use super::{Circumstances, Record};
 use serde::{Deserialize, Serialize};
 use straightline_kernels::OptionText;
+use straightline_table::{Column, Table};
 
 /// Part of the scene that moves from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -74,21 +75,15 @@ pub struct MovedMethod {
 impl Record for MotionRecord {
     const STEM: &'static str = "motion";
 
-    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
-        let rows = self.scenes.iter().flat_map(|scene| {
-            scene.methods.iter().map(|found| {
-                let mut row = vec![
-                    scene.scene.clone(),
-                    scene.motion.display_name().to_owned(),
-                    found.method.clone(),
-                ];
-                row.extend([found.psnr, found.flip, found.flicker].map(|figure| figure.to_string()));
-                row
-            })
-        });
-        (
-            vec!["scene", "motion", "method", "psnr", "flip", "flicker"],
-            rows.collect(),
-        )
+    fn to_table(&self) -> Table {
+        let rows = self.scenes.iter();
+        Table::of(rows.flat_map(|scene| scene.methods.iter().map(move |method| (scene, method))))
+            .column("scene", |(scene, _)| &scene.scene)
+            .column(Column::from("motion").left(), |(scene, _)| scene.motion.display_name())
+            .column(Column::from("method").left(), |(_, method)| &method.method)
+            .fixed(("psnr", "PSNR"), 2, |(_, method)| method.psnr)
+            .fixed(("flip", "FLIP"), 4, |(_, method)| method.flip)
+            .fixed("flicker", 4, |(_, method)| method.flicker)
+            .finish()
     }
 }

@@ -1,9 +1,10 @@
 //! Results of the study of pixel quads.
 
 use super::{Circumstances, Record};
-use crate::sweep::Interval;
+use crate::statistics::{Interval, Noise, mark_ratio};
 use serde::{Deserialize, Serialize};
 use straightline_manifest::Stage;
+use straightline_table::{Cell, Column, Table};
 
 /// Quad filters, in every variant and with every transport.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,6 +32,9 @@ pub struct QuadWay {
     pub way: String,
     /// Communication of lanes: `none`, or a transport.
     pub transport: String,
+    /// Hash of its WGSL: FNV-1a of 64 bits; `None` in records from before it was introduced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hash: Option<String>,
     /// Compute or fragment.
     pub stage: Stage,
     /// `true` if the filter is drawn with the scene's triangles, or reads the output of another pass that draws them.
@@ -57,39 +61,36 @@ pub struct QuadWay {
 impl Record for QuadsRecord {
     const STEM: &'static str = "quads";
 
-    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
-        let head = vec![
-            "filter",
-            "way",
-            "transport",
-            "stage",
-            "reads",
-            "messages",
-            "statements",
-            "median_ms",
-            "speedup",
-            "speedup_low",
-            "speedup_high",
-            "mean_difference",
-            "largest_difference",
-        ];
-        let row = |way: &QuadWay| {
-            vec![
-                way.filter.clone(),
-                way.way.clone(),
-                way.transport.clone(),
-                way.stage.name().to_owned(),
-                way.reads.to_string(),
-                way.messages.to_string(),
-                way.statements.to_string(),
-                way.median_ms.to_string(),
-                way.speedup.median.to_string(),
-                way.speedup.low.to_string(),
-                way.speedup.high.to_string(),
-                way.mean_difference.to_string(),
-                way.largest_difference.to_string(),
-            ]
-        };
-        (head, self.ways.iter().map(row).collect())
+    fn to_table(&self) -> Table {
+        let noise = self.noise();
+        Table::of(&self.ways)
+            .column("filter", |way| &way.filter)
+            .column(Column::from("way").left(), |way| &way.way)
+            .column(Column::from(("transport", "messages by")).left(), |way| &way.transport)
+            .column(Column::from("stage").left(), |way| way.stage.name())
+            .column("reads", |way| way.reads)
+            .column("messages", |way| way.messages)
+            .column("statements", |way| way.statements)
+            .fixed(("median_ms", "ms"), 2, |way| way.median_ms)
+            .column(Column::interval("speedup"), |way| {
+                Cell::interval(way.speedup.to_array(), 2).suffixed(mark_ratio(noise, way.speedup.median))
+            })
+            .scientific(("mean_difference", "mean off"), 1, |way| way.mean_difference)
+            .scientific(("largest_difference", "largest"), 1, |way| way.largest_difference)
+            .column(Column::exact("hash"), |way| way.hash.as_ref())
+            .finish()
+    }
+}
+
+impl QuadsRecord {
+    /// Returns the noise that equal shaders of a filter show; `None` if no two are equal.
+    pub fn noise(&self) -> Option<Noise> {
+        let ways = self.ways.iter();
+        Noise::from_run(ways.filter_map(|way| {
+            Some((
+                format!("{} {}", way.filter, way.hash.as_ref()?),
+                way.rounds_ms.as_slice(),
+            ))
+        }))
     }
 }

@@ -1,9 +1,10 @@
 //! Record of antialiasing methods against references.
 
-use super::{Circumstances, Record};
+use super::{Circumstances, Record, format_megabytes, join_options};
 use serde::{Deserialize, Serialize};
 use straightline_bench::execute::Times;
 use straightline_kernels::OptionText;
+use straightline_table::{Cell, Column, Table};
 
 pub use straightline_oracle::metrics::MOST_DB;
 
@@ -143,46 +144,64 @@ pub struct QualityRecord {
 impl Record for QualityRecord {
     const STEM: &'static str = "error";
 
-    fn to_table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
-        let head = vec![
-            "scene",
-            "method",
-            "family",
-            "psnr_db",
-            "ssim",
-            "flip",
-            "psnr_geometry_db",
-            "psnr_shading_db",
-            "psnr_flat_db",
-            "worst",
-            "gap_closed",
-            "temporal",
-            "median_ms",
-            "bytes",
-            "non_finite",
-        ];
-        let optional = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.4}"));
-        let rows = self.scenes.iter().flat_map(|scene| {
-            scene.methods.iter().map(move |m| {
-                vec![
-                    scene.scene.clone(),
-                    m.method.clone(),
-                    super::json_name(&m.family),
-                    format!("{:.4}", m.psnr),
-                    format!("{:.6}", m.ssim),
-                    format!("{:.6}", m.flip),
-                    optional(m.psnr_geometry),
-                    optional(m.psnr_shading),
-                    optional(m.psnr_flat),
-                    optional(m.worst),
-                    optional(m.gap_closed),
-                    m.temporal.map_or(String::new(), |v| format!("{v:.4e}")),
-                    optional(m.time.map(|t| t.median_ms)),
-                    m.bytes.to_string(),
-                    m.non_finite.to_string(),
-                ]
+    fn to_table(&self) -> Table {
+        self.tabulate(&self.scenes)
+    }
+}
+
+impl QualityRecord {
+    /// Returns the table of some of the scenes.
+    pub fn tabulate<'r>(&self, scenes: impl IntoIterator<Item = &'r SceneErrors>) -> Table {
+        let rows = scenes.into_iter();
+        let rows = rows.flat_map(|scene| scene.methods.iter().map(move |method| (&scene.scene, method)));
+        let share = |share: Option<f64>, decimals| share.map(|share| Cell::percent(share, decimals));
+        Table::of(rows)
+            .column("scene", |(scene, _)| *scene)
+            .column("method", |(_, m)| &m.method)
+            .column(Column::exact("family"), |(_, m)| super::json_name(&m.family))
+            .column(Column::from("options").left(), |(_, m)| {
+                Cell::code(join_options(&m.options))
             })
-        });
-        (head, rows.collect())
+            .column(("psnr_db", "PSNR"), |(_, m)| format_decibels(m.psnr))
+            .fixed(("ssim", "SSIM"), 4, |(_, m)| m.ssim)
+            .fixed(("flip", "FLIP"), 4, |(_, m)| m.flip)
+            .column(("psnr_geometry_db", "geometry"), |(_, m)| {
+                m.psnr_geometry.map(format_decibels)
+            })
+            .column(("psnr_shading_db", "shading"), |(_, m)| {
+                m.psnr_shading.map(format_decibels)
+            })
+            .column(("psnr_flat_db", "flat"), |(_, m)| m.psnr_flat.map(format_decibels))
+            .fixed(Column::exact("worst"), 4, |(_, m)| m.worst)
+            .column(("gap_closed", "of 16x"), |(_, m)| share(m.gap_closed, 0))
+            .fixed(("temporal", "pan"), 4, |(_, m)| m.temporal)
+            .column(("median_ms", "ms"), |(_, m)| {
+                m.time.as_ref().map(|time| Cell::fixed(time.median_ms, 2))
+            })
+            .column(("bytes", "MB"), |(_, m)| format_megabytes(m.bytes, 1))
+            .column(Column::exact("shaded_again"), |(_, m)| share(m.extra, 2))
+            .column(("non_finite", "not finite"), |(_, m)| m.non_finite)
+            .finish()
+    }
+}
+
+impl MethodErrors {
+    /// Returns the median milliseconds of the filter.
+    pub fn median_ms(&self) -> Option<f64> {
+        self.time.as_ref().map(|time| time.median_ms)
+    }
+
+    /// Returns the bytes that the method reads and writes, in millions.
+    pub fn megabytes(&self) -> Option<f64> {
+        Some(self.bytes as f64 / 1e6)
+    }
+}
+
+/// Returns a PSNR as a cell.
+pub(crate) fn format_decibels(psnr: f64) -> Cell {
+    let cell = Cell::fixed(psnr, 2);
+    match psnr < MOST_DB {
+        true => cell,
+        false => cell.shown_as("∞"),
     }
 }

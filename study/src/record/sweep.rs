@@ -1,10 +1,12 @@
 //! Record of a sweep: one kernel in every combination of options and forms.
 
 use super::{Circumstances, Record};
-use crate::sweep::{Axis, Interval};
+use crate::statistics::{Interval, Noise, mark_ratio};
+use crate::sweep::Axis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use straightline_table::{Cell, Column, Table, TableBuilder};
 
 /// Environment of a sweep, beyond its circumstances.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -98,26 +100,22 @@ impl Record for SweepRecord {
     const STEM: &'static str = "sweep";
 
     /// Formats a tidy table: a row for each variant and round, and one for a rejected variant.
-    fn to_table(&self) -> (Vec<&str>, Vec<Vec<String>>) {
-        const FIGURES: [&str; 13] = [
-            "rival",
-            "round",
-            "ms",
-            "median_ms",
-            "speedup",
-            "speedup_low",
-            "speedup_high",
-            "loops",
-            "statements",
-            "reads",
-            "spirv_bytes",
-            "off_f64_largest",
-            "refused",
-        ];
-        let mut head: Vec<&str> = self.axes.iter().map(|axis| axis.name.as_str()).collect();
-        head.extend(FIGURES);
-        let rows = self.variants.iter().flat_map(|variant| self.rows(variant));
-        (head, rows.collect())
+    fn to_table(&self) -> Table {
+        let round = |variant: &Swept, k| variant.measured.as_ref()?.rounds_ms.get(k).copied();
+        let rounds = |variant: &Swept| variant.measured.as_ref().map_or(1, |measured| measured.rounds_ms.len());
+        let rows = self.variants.iter();
+        let rows = rows.flat_map(|variant| (0..rounds(variant)).map(move |k| (variant, k)));
+        let ms = |(variant, k): &(&Swept, usize)| round(variant, *k);
+        self.tabulate(
+            rows,
+            |row| row.0,
+            self.axes.iter(),
+            |table| {
+                table
+                    .column("round", |row| ms(row).map(|_| row.1 + 1))
+                    .fixed("ms", 3, |row| ms(row))
+            },
+        )
     }
 }
 
@@ -137,38 +135,89 @@ impl SweepRecord {
         variant.rival.is_none() && baseline.all(|(name, value)| variant.settings.get(name) == Some(value))
     }
 
-    fn rows(&self, variant: &Swept) -> Vec<Vec<String>> {
-        let setting = |axis: &Axis| variant.settings.get(&axis.name).cloned().unwrap_or_default();
-        let mut begin: Vec<String> = self.axes.iter().map(setting).collect();
-        begin.push(variant.rival.clone().unwrap_or_default());
-        let Some(measured) = &variant.measured else {
-            begin.extend(vec![String::new(); 11]);
-            begin.push(variant.refused.clone().unwrap_or_default());
-            return vec![begin];
-        };
-        let count = |count: Option<u32>| count.map_or(String::new(), |count| count.to_string());
-        let ratio = measured.speedup;
-        let of = |get: fn(&Interval) -> f64| {
-            ratio
-                .as_ref()
-                .map_or(String::new(), |ratio| format!("{:.4}", get(ratio)))
-        };
-        let end = [
-            format!("{:.5}", measured.median_ms),
-            of(|ratio| ratio.median),
-            of(|ratio| ratio.low),
-            of(|ratio| ratio.high),
-            count(measured.loops),
-            count(measured.statements),
-            count(measured.reads),
-            measured.spirv_bytes.map_or(String::new(), |bytes| bytes.to_string()),
-            format!("{:.3e}", measured.difference),
-            String::new(),
-        ];
-        let row = |(round, ms): (usize, &f64)| {
-            let own = [(round + 1).to_string(), format!("{ms:.5}")];
-            [begin.as_slice(), &own, &end].concat()
-        };
-        measured.rounds_ms.iter().enumerate().map(row).collect()
+    /// Returns a table with a row for each measured variant, and the axes that vary.
+    pub fn summarise(&self) -> Table {
+        let measured = self.variants.iter().filter(|variant| variant.measured.is_some());
+        let rounds = |variant: &&Swept| variant.measured.as_ref().map(|measured| measured.rounds_ms.len());
+        let table = self.tabulate(
+            measured,
+            |variant| variant,
+            self.varied_axes().into_iter(),
+            |table| table.column("rounds", rounds),
+        );
+        match self.variants.iter().any(|variant| variant.rival.is_some()) {
+            true => table,
+            false => table.without(&["rival"]),
+        }
+    }
+
+    /// Returns the axes with several values, or the baseline's axes if no axis has several.
+    pub fn varied_axes(&self) -> Vec<&Axis> {
+        let several: Vec<&Axis> = self.axes.iter().filter(|axis| axis.values.len() > 1).collect();
+        match several.is_empty() {
+            true => self
+                .axes
+                .iter()
+                .filter(|axis| self.baseline.contains_key(&axis.name))
+                .collect(),
+            false => several,
+        }
+    }
+
+    /// Returns the noise that equal shaders of a group show; `None` if no two are equal.
+    pub fn noise(&self) -> Option<Noise> {
+        Noise::from_run(self.variants.iter().filter_map(|variant| {
+            let measured = variant.measured.as_ref()?;
+            let mut group = variant.settings.clone();
+            group.retain(|name, _| !self.baseline.contains_key(name));
+            // The bound on loops is no part of the text.
+            let bound = variant.settings.get("loops").filter(|_| measured.loops != Some(0));
+            let shader = format!("{group:?} {} {bound:?}", measured.hash);
+            Some((shader, measured.rounds_ms.as_slice()))
+        }))
+    }
+
+    /// Returns a table of variants: their axes, columns of the caller's, and their measurements.
+    fn tabulate<'r, R>(
+        &'r self,
+        rows: impl IntoIterator<Item = R>,
+        variant: impl Fn(&R) -> &'r Swept + Copy,
+        axes: impl Iterator<Item = &'r Axis>,
+        further: impl FnOnce(TableBuilder<R>) -> TableBuilder<R>,
+    ) -> Table {
+        let noise = self.noise();
+        let measured = move |row: &R| variant(row).measured.as_ref();
+        let table = Table::of(rows)
+            .columns(
+                axes,
+                |axis| axis.name.clone(),
+                |row, axis| variant(row).settings.get(&axis.name).cloned(),
+            )
+            .column("rival", |row| variant(row).rival.clone());
+        further(table)
+            .column(("median_ms", "median ms"), |row| {
+                measured(row).map(|of| Cell::fixed(of.median_ms, 3))
+            })
+            .column(Column::interval("speedup"), |row| {
+                let ratio = measured(row)?.speedup?;
+                let cell = Cell::interval(ratio.to_array(), 2);
+                Some(match self.is_baseline(variant(row)) {
+                    true => cell.shown_as("baseline"),
+                    false => cell.suffixed(mark_ratio(noise, ratio.median)),
+                })
+            })
+            .column("loops", |row| measured(row)?.loops)
+            .column("statements", |row| measured(row)?.statements)
+            .column("reads", |row| measured(row)?.reads)
+            .column(Column::exact("spirv_bytes"), |row| measured(row)?.spirv_bytes)
+            .column(("off_f64_999", "off f64, 99.9 %"), |row| {
+                measured(row).map(|of| Cell::scientific(of.difference_999, 1))
+            })
+            .column(("off_f64_largest", "largest"), |row| {
+                measured(row).map(|of| Cell::scientific(of.difference, 1))
+            })
+            .column(Column::exact("hash"), |row| Some(&measured(row)?.hash))
+            .column(Column::exact("refused"), |row| variant(row).refused.clone())
+            .finish()
     }
 }

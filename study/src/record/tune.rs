@@ -1,9 +1,11 @@
 //! Record of the search for the cheapest shader of a scene.
 
-use super::{Circumstances, Record};
+use super::{Circumstances, Record, format_megabytes, join_options};
+use crate::statistics::Interval;
 use serde::{Deserialize, Serialize};
-use straightline_bench::execute::{Ratio, Times};
+use straightline_bench::execute::Times;
 use straightline_kernels::OptionText;
+use straightline_table::{Cell, Column, Table, TableBuilder};
 
 /// A variant of the search.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,7 +40,7 @@ pub struct Candidate {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cycles: Option<f64>,
     /// Speedup over the most general variant, if it was measured.
-    pub ratio: Option<Ratio>,
+    pub ratio: Option<Interval>,
     /// `true` if no other variant is both faster and better.
     pub front: bool,
 }
@@ -70,7 +72,7 @@ pub struct TermWorth {
     /// Cost of the replacement in error, by the record's metric; a loss is positive.
     pub cost: f64,
     /// Speedup of the replacement, if that variant was run.
-    pub ratio: Option<Ratio>,
+    pub ratio: Option<Interval>,
     /// Index of the variant.
     pub candidate: usize,
 }
@@ -176,7 +178,12 @@ impl TuneRecord {
 impl Candidate {
     /// Returns the measured cost, in the record's unit, if there is one.
     pub fn measured_cost(&self) -> Option<f64> {
-        self.cycles.or(self.time.map(|time| time.median_ms))
+        self.cycles.or(self.time.as_ref().map(|time| time.median_ms))
+    }
+
+    /// Returns the measured cost, or else the predicted one.
+    pub fn best_known_cost(&self) -> f64 {
+        self.measured_cost().unwrap_or(self.predicted)
     }
 
     /// Returns whether the variant places shading, searches, or borrows separated light.
@@ -193,44 +200,76 @@ impl Candidate {
 impl Record for TuneRecord {
     const STEM: &'static str = "tune";
 
-    fn to_table(&self) -> (Vec<&'static str>, Vec<Vec<String>>) {
-        let head = vec![
-            "options",
-            "precision",
-            "block",
-            "error",
-            "reads",
-            "statements",
-            "gbuffer_bytes",
-            "predicted",
-            "median_ms",
-            "cycles",
-            "speedup",
-            "front",
-            "chosen",
-        ];
-        let rows = self.candidates.iter().enumerate().map(|(index, c)| {
-            let options: Vec<String> = c
-                .options
-                .iter()
-                .map(|(name, value)| format!("{name}={value}"))
-                .collect();
-            vec![
-                options.join(" "),
-                c.precision.clone(),
-                format!("{}x{}", c.block[0], c.block[1]),
-                format!("{:.5}", c.error),
-                format!("{:.2}", c.reads),
-                format!("{:.2}", c.statements),
-                c.gbuffer_bytes.to_string(),
-                format!("{:.4}", c.predicted),
-                c.time.map_or(String::new(), |t| format!("{:.4}", t.median_ms)),
-                c.cycles.map_or(String::new(), |cycles| format!("{cycles:.2}")),
-                c.ratio.map_or(String::new(), |r| format!("{:.3}", r.median)),
-                c.front.to_string(),
-                (self.chosen == Some(index)).to_string(),
-            ]
-        });
-        (head, rows.collect())
+    fn to_table(&self) -> Table {
+        let rows = 0..self.candidates.len();
+        let chosen = |k: &usize| self.chosen == Some(*k);
+        self.tabulate(rows.collect(), 2)
+            .column(Column::exact("front"), |k| self.candidates[*k].front)
+            .column(Column::exact("chosen"), chosen)
+            .finish()
+    }
+}
+
+impl TuneRecord {
+    /// Returns a table of some variants, errors with this many decimals.
+    fn tabulate(&self, rows: Vec<usize>, decimals: usize) -> TableBuilder<usize> {
+        let of = |k: &usize| &self.candidates[*k];
+        let unit = self.unit();
+        let role = |k: &usize| match (self.chosen == Some(*k), *k == self.general) {
+            (true, _) => " ← chosen",
+            (_, true) => " ← most general",
+            _ => "",
+        };
+        Table::of(rows)
+            .column(Column::shown("variant"), |k| Cell::code(&*of(k).name).suffixed(role(k)))
+            .column(Column::exact("options"), |k| join_options(&of(k).options))
+            .column(Column::exact("precision"), |k| &of(k).precision)
+            .column(Column::exact("math"), |k| &of(k).math)
+            .column(Column::exact("block"), |k| {
+                format!("{}x{}", of(k).block[0], of(k).block[1])
+            })
+            .fixed("error", decimals, |k| of(k).error)
+            .column(Column::exact("median_ms"), |k| {
+                of(k).time.as_ref().map(|t| Cell::fixed(t.median_ms, 2))
+            })
+            .fixed(Column::exact("cycles"), 2, |k| of(k).cycles)
+            .fixed(Column::shown(unit), 2, |k| of(k).measured_cost())
+            .column(Column::interval("speedup"), |k| {
+                of(k).ratio.map(|r| Cell::interval(r.to_array(), 2))
+            })
+            .fixed(Column::from("predicted").titled(format!("predicted {unit}")), 2, |k| {
+                of(k).predicted
+            })
+            .fixed("reads", 1, |k| of(k).reads)
+            .fixed(Column::exact("statements"), 0, |k| of(k).statements)
+            .column(("gbuffer_bytes", "G-buffer MB"), |k| {
+                format_megabytes(of(k).gbuffer_bytes, 1)
+            })
+            .class("chosen", |k| self.chosen == Some(*k))
+    }
+
+    /// Returns the table of the front of cost against error, fastest first, and of the most general variant.
+    pub fn front_table(&self, decimals: usize) -> Table {
+        let mut shown: Vec<usize> = (0..self.candidates.len())
+            .filter(|k| self.candidates[*k].front)
+            .collect();
+        let cost = |k: &usize| self.candidates[*k].best_known_cost();
+        shown.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+        if self.candidates.get(self.general).is_some_and(|general| !general.front) {
+            shown.push(self.general);
+        }
+        self.tabulate(shown, decimals).finish()
+    }
+
+    /// Returns the table of the terms of the most general variant, and of what each is worth.
+    pub fn terms_table(&self, loss: impl Fn(f64) -> Cell) -> Table {
+        Table::of(&self.terms)
+            .column("instead of", |term| &term.term)
+            .column(Column::from("with").left(), |term| &term.instead)
+            .column("error", |term| loss(term.cost))
+            .column(Column::interval("speedup"), |term| {
+                term.ratio.map(|r| Cell::interval(r.to_array(), 2))
+            })
+            .finish()
     }
 }

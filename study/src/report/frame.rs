@@ -11,7 +11,7 @@ pub(super) struct Frames {
     scene: String,
     legend: Vec<(&'static str, &'static str)>,
     panels: Vec<Panel>,
-    rows: Vec<Vec<String>>,
+    table: String,
     absent: Vec<(String, String)>,
     passes: String,
     errors: String,
@@ -41,7 +41,7 @@ pub(super) fn build_section(record: &FrameRecord) -> Result<Frames, ReportError>
         scene: record.scene.clone(),
         legend: family_legend(|family| record.methods.iter().any(|method| method.family == family)),
         panels: panels.collect::<Result<_, ReportError>>()?,
-        rows: record.methods.iter().map(build_row).collect(),
+        table: record.summarise(" ●").to_html(),
         absent: record.absent.clone(),
         passes: format_caption(&record.passes),
         errors: format_caption(&record.errors),
@@ -101,21 +101,4 @@ fn method_title(method: &FrameMethod, cost: usize) -> String {
         method.psnr,
         method.bytes as f64 / 1e6
     )
-}
-
-fn build_row(method: &FrameMethod) -> Vec<String> {
-    let mut row = vec![
-        method.method.clone(),
-        format!("{:.4}", method.error),
-        format!("{:.2}", method.psnr),
-        format_number(method.geometry_ms),
-        method.shaded.to_string(),
-        format_number(method.filter_ms),
-    ];
-    row.extend(method.frames.iter().map(|frame| {
-        let best = if frame.is_best { " ●" } else { "" };
-        format!("{}{best}", format_number(frame.ms))
-    }));
-    row.push(format!("{:.0}", method.bytes as f64 / 1e6));
-    row
 }

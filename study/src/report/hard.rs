@@ -1,50 +1,20 @@
 //! Hard cases.
 
 use super::format_caption;
-use crate::record::{Executor, HalfVerdict, HardRecord, HardResult};
+use crate::record::{Executor, HardRecord, HardResult};
 use serde::Serialize;
+use std::cell::Cell;
+use straightline_table::{self as table, Column, Table};
 
 #[derive(Debug, Serialize)]
 pub(super) struct Hard {
     caption: String,
-    precisions: Vec<Matrix>,
+    /// Each precision, with its matrix: cases down, kernels across.
+    precisions: Vec<(String, String)>,
     /// Worst result among the executors, by outcome: its name, its count, the class of its colour.
     tally: Vec<(&'static str, usize, &'static str)>,
-    half: Vec<Half>,
-}
-
-/// Cases down, kernels across.
-#[derive(Debug, Serialize)]
-struct Matrix {
-    precision: String,
-    columns: Vec<String>,
-    rows: Vec<Row>,
-}
-
-#[derive(Debug, Serialize)]
-struct Row {
-    name: String,
-    about: String,
-    cells: Vec<Option<Cell>>,
-}
-
-/// A kernel on a case, by all executors.
-#[derive(Debug, Serialize)]
-struct Cell {
-    class: &'static str,
-    text: String,
-    title: String,
-}
-
-/// Row on the half precision of a kernel.
-#[derive(Debug, Serialize)]
-struct Half {
-    kernel: String,
-    verdict: String,
-    worst: String,
-    difference: String,
-    limit: String,
-    broken: String,
+    /// Table of verdicts on half precision; empty without one.
+    half: String,
 }
 
 /// Classes of cells, from the best to the worst, and what they mean.
@@ -64,54 +34,47 @@ pub(super) fn build_section(record: &HardRecord) -> Hard {
         }
     }
     precisions.sort_by_key(|precision| std::cmp::Reverse(*precision));
-    let precisions: Vec<Matrix> = precisions
-        .iter()
-        .map(|precision| build_matrix(record, precision))
-        .collect();
-    let cells = || {
-        precisions
-            .iter()
-            .flat_map(|m| &m.rows)
-            .flat_map(|row| row.cells.iter().flatten())
-    };
-    let tally = CLASSES.iter().map(|(class, words)| {
-        let count = cells().filter(|cell| cell.class == *class).count();
-        (*words, count, *class)
+    let counts: [Cell<usize>; CLASSES.len()] = Default::default();
+    let precisions = precisions.iter().map(|precision| {
+        let matrix = build_matrix(record, precision, &counts).to_html();
+        ((*precision).to_owned(), matrix)
     });
+    let precisions = precisions.collect();
+    let tally = CLASSES
+        .iter()
+        .zip(&counts)
+        .map(|((class, words), count)| (*words, count.get(), *class));
     Hard {
         caption: format_caption(&record.circumstances),
         tally: tally.collect(),
-        half: record.half.iter().map(build_half_row).collect(),
+        half: match record.half.is_empty() {
+            true => String::new(),
+            false => half_table(record).to_html(),
+        },
         precisions,
     }
 }
 
-fn build_matrix(record: &HardRecord, precision: &str) -> Matrix {
-    let mut columns: Vec<String> = Vec::new();
+/// Builds the matrix of a precision, and counts its cells by class.
+fn build_matrix(record: &HardRecord, precision: &str, counts: &[Cell<usize>]) -> Table {
+    let mut kernels: Vec<&String> = Vec::new();
     for result in record.cases.iter().flat_map(|case| &case.results) {
-        if result.precision == precision && !columns.contains(&result.kernel) {
-            columns.push(result.kernel.clone());
+        if result.precision == precision && !kernels.contains(&&result.kernel) {
+            kernels.push(&result.kernel);
         }
     }
-    let rows = record.cases.iter().map(|case| {
-        let cell = |kernel: &String| {
-            let own = case.results.iter();
-            let own: Vec<&HardResult> = own
-                .filter(|r| r.kernel == *kernel && r.precision == precision)
-                .collect();
-            build_cell(&own)
-        };
-        Row {
-            name: case.name.clone(),
-            about: case.about.clone(),
-            cells: columns.iter().map(cell).collect(),
-        }
-    });
-    Matrix {
-        precision: precision.to_owned(),
-        rows: rows.collect(),
-        columns: columns.clone(),
-    }
+    Table::of(&record.cases)
+        .column("case", |case| table::Cell::from(&case.name).hinted(&*case.about))
+        .columns(
+            kernels,
+            |kernel| Column::new(*kernel).turned(),
+            |case, kernel| {
+                let own = case.results.iter();
+                let own = own.filter(|r| r.kernel == **kernel && r.precision == precision);
+                build_cell(&own.collect::<Vec<_>>(), counts)
+            },
+        )
+        .finish()
 }
 
 fn executor_name(result: &HardResult) -> &'static str {
@@ -134,9 +97,11 @@ fn classify_result(result: &HardResult) -> usize {
     }
 }
 
-fn build_cell(results: &[&HardResult]) -> Option<Cell> {
+/// A kernel on a case, by all executors.
+fn build_cell(results: &[&HardResult], counts: &[Cell<usize>]) -> Option<table::Cell> {
     let worst = results.iter().map(|result| classify_result(result)).max()?;
     let (class, _) = CLASSES[worst];
+    counts[worst].set(counts[worst].get() + 1);
     let text = match class {
         "refused" => "·".to_owned(),
         "bad" => results.iter().map(|r| r.non_finite).max().unwrap_or(0).to_string(),
@@ -149,15 +114,8 @@ fn build_cell(results: &[&HardResult]) -> Option<Cell> {
                 d => format!("{d:.0e}"),
             }),
     };
-    Some(Cell {
-        class,
-        text,
-        title: results
-            .iter()
-            .map(|result| describe_result(result))
-            .collect::<Vec<_>>()
-            .join("\n"),
-    })
+    let hint: Vec<String> = results.iter().map(|result| describe_result(result)).collect();
+    Some(table::Cell::from(text).classed(class).hinted(hint.join("\n")))
 }
 
 /// A result in a line.
@@ -173,14 +131,17 @@ fn describe_result(result: &HardResult) -> String {
     format!("{}: {}", executor_name(result), words.join(", "))
 }
 
-fn build_half_row(verdict: &HalfVerdict) -> Half {
-    let number = |value: Option<f64>| value.map_or("–".to_owned(), |v| format!("{v:.1e}"));
-    Half {
-        kernel: verdict.kernel.clone(),
-        verdict: verdict.reason.clone().unwrap_or_else(|| "may be used".to_owned()),
-        worst: verdict.worst.clone().unwrap_or_default(),
-        difference: number(verdict.difference),
-        limit: number(verdict.limit),
-        broken: format!("{} of {}", verdict.broken, verdict.cases),
-    }
+/// Table of the verdicts on half precision.
+fn half_table(record: &HardRecord) -> Table {
+    let number = |value: Option<f64>| value.map(|value| table::Cell::scientific(value, 1));
+    Table::of(&record.half)
+        .column("kernel", |half| &half.kernel)
+        .column(Column::from("verdict").left(), |half| {
+            half.reason.as_deref().unwrap_or("may be used")
+        })
+        .column(Column::from("worst case").left(), |half| half.worst.as_ref())
+        .column("off by", |half| number(half.difference))
+        .column("seen from", |half| number(half.limit))
+        .column("cases broken", |half| format!("{} of {}", half.broken, half.cases))
+        .finish()
 }

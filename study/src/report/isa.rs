@@ -1,46 +1,25 @@
 //! Section on the figures of GPU compilers.
 
-use crate::record::{Asked, IsaRecord};
+use crate::record::{IsaRecord, Record};
 use serde::Serialize;
-use straightline_isa::{Family, Figures};
+use straightline_isa::Family;
 
 #[derive(Debug, Serialize)]
 pub(super) struct Isa {
     command: String,
     date: String,
-    /// Names of the figures.
-    figures: Vec<&'static str>,
-    families: Vec<OfFamily>,
+    /// Each family's device, and the table of its figures.
+    families: Vec<(String, String)>,
     /// Why a family has no table.
     absent: Vec<String>,
     /// Kernel, form, and why a compiler says nothing of it.
     refused: Vec<[String; 3]>,
 }
 
-/// A table of one family's figures.
-#[derive(Debug, Serialize)]
-struct OfFamily {
-    device: String,
-    rows: Vec<Vec<String>>,
-}
-
 pub(super) fn build_section(record: &IsaRecord) -> Isa {
-    let row = |asked: &Asked, figures: &Figures| {
-        let words = [
-            asked.kernel.clone(),
-            asked.form.display_name().to_owned(),
-            asked.path.display_name().to_owned(),
-        ];
-        let figures = figures.in_short().map(|(_, figure)| figure.to_string());
-        words.into_iter().chain(figures).collect()
-    };
-    let of_family = |(family, device): (&Family, &String)| OfFamily {
-        device: format!("{family}: {device}"),
-        rows: record
-            .shaders
-            .iter()
-            .filter_map(|asked| Some(row(asked, asked.figures.get(family)?)))
-            .collect(),
+    let table_of = |(family, device): (&Family, &String)| {
+        let table = record.of_family(*family).to_table();
+        (format!("{family}: {device}"), table.to_html())
     };
     let refused = record.shaders.iter().filter_map(|asked| {
         let why = asked.refused.clone()?;
@@ -49,8 +28,7 @@ pub(super) fn build_section(record: &IsaRecord) -> Isa {
     Isa {
         command: record.command.clone(),
         date: record.date.clone(),
-        figures: Figures::default().in_short().map(|(name, _)| name).into(),
-        families: record.devices.iter().map(of_family).collect(),
+        families: record.devices.iter().map(table_of).collect(),
         absent: record.absent.values().cloned().collect(),
         refused: refused.collect(),
     }

@@ -1,8 +1,9 @@
 //! Unroll against loop.
 
 use super::plot::{Dot, Line, Plot, Scale, format_number};
-use super::{ReportError, format_caption, format_options};
-use crate::record::{FormKind, FormRecord, KernelForms, LoopsRecord};
+use super::{ReportError, format_caption};
+use crate::record::{FormKind, KernelForms, LoopsRecord, join_options};
+use crate::statistics::describe_noise;
 use serde::Serialize;
 
 #[derive(Debug, Serialize)]
@@ -13,6 +14,8 @@ pub(super) struct Loops {
     /// Ratio by form, a line for each kernel.
     curves: String,
     legend: Vec<(&'static str, &'static str)>,
+    /// Sentence on the noise of the run.
+    noise: String,
     kernels: Vec<Kernel>,
 }
 
@@ -21,24 +24,8 @@ struct Kernel {
     name: String,
     options: String,
     input: String,
-    rows: Vec<Row>,
+    table: String,
     absent: Vec<(&'static str, String)>,
-}
-
-#[derive(Debug, Serialize)]
-struct Row {
-    form: &'static str,
-    time: String,
-    spread: String,
-    ratio: String,
-    ratio_spread: String,
-    pipeline: String,
-    loops: u32,
-    statements: u32,
-    reads: u32,
-    spirv: String,
-    error: String,
-    largest: String,
 }
 
 /// Index of a form's colour.
@@ -54,7 +41,7 @@ fn color_index(kind: FormKind) -> usize {
         FormKind::Looped | FormKind::Floor => 7,
         FormKind::FullHalf => 8,
         FormKind::Partial2 => 9,
-        FormKind::FullTile | FormKind::FullGather | FormKind::FullFast => 10,
+        FormKind::FullTile | FormKind::FullGather | FormKind::FullFast | FormKind::Slang => 10,
     }
 }
 
@@ -67,12 +54,17 @@ pub(super) fn build_section(record: &LoopsRecord) -> Result<Loops, ReportError> 
         legend: shown
             .map(|kind| (kind.display_name(), super::plot::COLORS[color_index(kind)]))
             .collect(),
-        kernels: record.kernels.iter().map(build_kernel).collect(),
+        noise: describe_noise(record.noise()),
+        kernels: record
+            .kernels
+            .iter()
+            .map(|kernel| build_kernel(record, kernel))
+            .collect(),
     })
 }
 
 fn plot_overview(record: &LoopsRecord) -> Result<String, ReportError> {
-    let count = record.kernels.len();
+    let (count, noise) = (record.kernels.len(), record.noise());
     let mut dots = Vec::new();
     for (row, kernel) in record.kernels.iter().enumerate() {
         for form in kernel.forms.iter().filter(|form| form.kind != FormKind::Looped) {
@@ -82,12 +74,13 @@ fn plot_overview(record: &LoopsRecord) -> Result<String, ReportError> {
                 color: color_index(form.kind),
                 label: None,
                 title: format!(
-                    "{}, {}: {}× as fast as looped ({} to {}), {} ms",
+                    "{}, {}: {}× as fast as looped ({} to {}){}, {} ms",
                     kernel.kernel,
                     form.kind.display_name(),
                     format_number(form.ratio.median),
                     format_number(form.ratio.low),
                     format_number(form.ratio.high),
+                    form.mark(noise),
                     format_number(form.time.median_ms)
                 ),
             });
@@ -169,38 +162,13 @@ fn plot_curves(record: &LoopsRecord) -> Result<String, ReportError> {
     plot.to_svg()
 }
 
-fn build_kernel(kernel: &KernelForms) -> Kernel {
+fn build_kernel(record: &LoopsRecord, kernel: &KernelForms) -> Kernel {
+    let absent = kernel.absent.iter();
     Kernel {
         name: kernel.kernel.clone(),
-        options: format_options(&kernel.options),
+        options: join_options(&kernel.options),
         input: kernel.input.clone(),
-        rows: kernel.forms.iter().map(build_row).collect(),
-        absent: kernel
-            .absent
-            .iter()
-            .map(|(kind, why)| (kind.display_name(), why.clone()))
-            .collect(),
-    }
-}
-
-fn build_row(form: &FormRecord) -> Row {
-    let error = |value: Option<f64>| value.map_or("–".to_owned(), |v| format!("{v:.0e}"));
-    Row {
-        form: form.kind.display_name(),
-        time: format_number(form.time.median_ms),
-        spread: format!(
-            "{} to {}",
-            format_number(form.time.min_ms),
-            format_number(form.time.max_ms)
-        ),
-        ratio: format!("{:.2}", form.ratio.median),
-        ratio_spread: format!("{:.2} to {:.2}", form.ratio.low, form.ratio.high),
-        pipeline: format_number(form.pipeline_ms),
-        loops: form.loops,
-        statements: form.statements,
-        reads: form.reads,
-        spirv: format!("{:.1}", form.spirv_bytes as f64 / 1024.0),
-        error: error(form.difference_999),
-        largest: error(form.difference),
+        table: record.tabulate([kernel]).without(&["kernel"]).to_html(),
+        absent: absent.map(|(kind, why)| (kind.display_name(), why.clone())).collect(),
     }
 }

@@ -16,7 +16,6 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use straightline_codegen::files;
-use straightline_kernels::OptionText;
 use tera::{Context, Tera};
 
 pub use frame::plot_frames as frame_plot;
@@ -168,6 +167,7 @@ fn format_caption(circumstances: &Circumstances) -> String {
         clock,
         size: [width, height],
         rounds,
+        intervals,
         complete,
     } = circumstances;
     let clock = match clock {
@@ -180,15 +180,10 @@ fn format_caption(circumstances: &Circumstances) -> String {
         " · interrupted: not all was measured"
     };
     format!(
-        "{adapter} · {processor} · {width}×{height} · {rounds} rounds in turn, {clock} · {} · {command}{interrupted}",
+        "{adapter} · {processor} · {width}×{height} · {rounds} rounds in turn, {clock}, {} · {} · {command}{interrupted}",
+        intervals.display_name(),
         date.get(..10).unwrap_or(date)
     )
-}
-
-/// Options as one would write them on a command line.
-fn format_options(options: &[OptionText]) -> String {
-    let words: Vec<String> = options.iter().map(|(name, value)| format!("{name}={value}")).collect();
-    words.join(" ")
 }
 
 #[cfg(test)]

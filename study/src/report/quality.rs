@@ -2,27 +2,19 @@
 
 use super::pictures::{Compared, Pictures};
 use super::plot::{Dot, Line, Plot, Scale, format_number};
-use super::{ReportError, format_caption, format_options};
-use crate::record::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors};
+use super::{ReportError, format_caption};
+use crate::record::{Family, Gap, MethodErrors, QualityRecord, SceneErrors, format_decibels};
 use serde::Serialize;
 use std::path::Path;
+use straightline_table::{Column, Table};
 
 #[derive(Debug, Serialize)]
 pub(super) struct Quality {
     caption: String,
     /// PSNR of each method on each scene.
-    methods: Vec<Method>,
-    names: Vec<String>,
+    methods: String,
     legend: Vec<(&'static str, &'static str)>,
     scenes: Vec<SceneSection>,
-}
-
-#[derive(Debug, Serialize)]
-struct Method {
-    name: String,
-    psnr: Vec<Option<String>>,
-    gap: String,
-    flip: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -31,39 +23,11 @@ struct SceneSection {
     purpose: String,
     shares: String,
     plot: String,
-    rows: Vec<Row>,
+    table: String,
     absent: Vec<(String, String)>,
-    gaps: Vec<GapRow>,
+    /// Gaps between methods and supersampling, and their causes; empty without one.
+    gaps: String,
     compared: Option<Compared>,
-}
-
-/// Gap between a method and supersampling, in dB, and its causes.
-#[derive(Debug, Serialize)]
-struct GapRow {
-    method: String,
-    bound: String,
-    gap: String,
-    unseen: String,
-    borrowed: String,
-    error_unseen: String,
-    gap_seen: String,
-}
-
-#[derive(Debug, Serialize)]
-struct Row {
-    method: String,
-    options: String,
-    psnr: String,
-    flip: String,
-    ssim: String,
-    geometry: String,
-    shading: String,
-    flat: String,
-    gap: String,
-    temporal: String,
-    time: String,
-    bytes: String,
-    non_finite: usize,
 }
 
 /// Families with their words and colours.
@@ -105,12 +69,11 @@ pub(super) fn build_section(
     let scenes: Result<Vec<SceneSection>, ReportError> = record
         .scenes
         .iter()
-        .map(|scene| scene_section(scene, folder, pictures))
+        .map(|scene| scene_section(record, scene, folder, pictures))
         .collect();
     Ok(Quality {
         caption: format_caption(&record.circumstances),
-        methods: names.iter().map(|name| build_method(record, name)).collect(),
-        names: record.scenes.iter().map(|scene| scene.scene.clone()).collect(),
+        methods: overview_table(record, &names).to_html(),
         legend: family_legend(|family| {
             let mut methods = record.scenes.iter().flat_map(|scene| &scene.methods);
             methods.any(|method| method.family == family)
@@ -119,39 +82,48 @@ pub(super) fn build_section(
     })
 }
 
-fn build_method(record: &QualityRecord, name: &str) -> Method {
-    let found = |scene: &SceneErrors| scene.methods.iter().find(|m| m.method == name).cloned();
-    let all: Vec<Option<MethodErrors>> = record.scenes.iter().map(found).collect();
-    let mean = |pick: fn(&MethodErrors) -> Option<f64>| {
-        let values: Vec<f64> = all.iter().flatten().filter_map(pick).collect();
+/// Table of PSNR by method and scene, with means over the scenes.
+fn overview_table(record: &QualityRecord, names: &[&str]) -> Table {
+    let find = |scene: &'_ SceneErrors, name: &str| scene.methods.iter().find(|m| m.method == name).cloned();
+    let mean = |name: &str, pick: fn(MethodErrors) -> Option<f64>| {
+        let values = record.scenes.iter().filter_map(|scene| pick(find(scene, name)?));
+        let values: Vec<f64> = values.collect();
         (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
     };
-    Method {
-        name: name.to_owned(),
-        psnr: all
-            .iter()
-            .map(|m| m.as_ref().map(|m| format_decibels(m.psnr)))
-            .collect(),
-        gap: format_percent(mean(|m| m.gap_closed)),
-        flip: mean(|m| Some(m.flip)).map_or(NONE.to_owned(), |flip| format!("{flip:.4}")),
-    }
+    Table::of(names)
+        .column("method", |name| **name)
+        .columns(
+            &record.scenes,
+            |scene| scene.scene.clone(),
+            |name, scene| find(scene, name).map(|m| format_decibels(m.psnr)),
+        )
+        .percent("gap closed", 0, |name| mean(name, |m| m.gap_closed))
+        .fixed("FLIP", 4, |name| mean(name, |m| Some(m.flip)))
+        .finish()
 }
 
-fn format_decibels(psnr: f64) -> String {
-    match psnr < MOST_DB {
-        true => format!("{psnr:.2}"),
-        false => "∞".to_owned(),
-    }
+/// Table of the distances between methods and supersampling, in dB.
+fn gaps_table(gaps: &[Gap]) -> Table {
+    let decibels = |gap: f64| format!("{gap:+.2}");
+    Table::of(gaps)
+        .column("method", |gap| &gap.method)
+        .column(Column::from("against").left(), |gap| &gap.bound)
+        .column("gap", |gap| decibels(gap.psnr - gap.bound_psnr))
+        .column("unseen surfaces", |gap| decibels(gap.ideal_psnr - gap.bound_psnr))
+        .column("borrowed colours", |gap| decibels(gap.psnr - gap.ideal_psnr))
+        .percent("error in pixels with unseen surfaces", 1, |gap| gap.error_unseen)
+        .column("gap without these", |gap| {
+            Some(decibels(gap.psnr_seen? - gap.bound_psnr_seen?))
+        })
+        .finish()
 }
 
-/// Placeholder for a missing figure.
-const NONE: &str = "–";
-
-fn format_percent(share: Option<f64>) -> String {
-    share.map_or(NONE.to_owned(), |share| format!("{:.0} %", share * 100.0))
-}
-
-fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) -> Result<SceneSection, ReportError> {
+fn scene_section(
+    record: &QualityRecord,
+    scene: &SceneErrors,
+    folder: &Path,
+    pictures: &mut Pictures,
+) -> Result<SceneSection, ReportError> {
     let files: Vec<(&str, &str)> = scene
         .methods
         .iter()
@@ -162,18 +134,6 @@ fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) ->
         _ => None,
     };
     let percent = |share: f64| format!("{:.1} %", share * 100.0);
-    let gap = |gap: &Gap| GapRow {
-        method: gap.method.clone(),
-        bound: gap.bound.clone(),
-        gap: format!("{:+.2}", gap.psnr - gap.bound_psnr),
-        unseen: format!("{:+.2}", gap.ideal_psnr - gap.bound_psnr),
-        borrowed: format!("{:+.2}", gap.psnr - gap.ideal_psnr),
-        error_unseen: percent(gap.error_unseen),
-        gap_seen: match (gap.psnr_seen, gap.bound_psnr_seen) {
-            (Some(psnr), Some(bound)) => format!("{:+.2}", psnr - bound),
-            _ => NONE.to_owned(),
-        },
-    };
     Ok(SceneSection {
         name: scene.scene.clone(),
         purpose: scene.purpose.clone(),
@@ -184,9 +144,12 @@ fn scene_section(scene: &SceneErrors, folder: &Path, pictures: &mut Pictures) ->
             percent(scene.shares.unseen)
         ),
         plot: plot_scene(scene)?,
-        rows: scene.methods.iter().map(build_row).collect(),
+        table: record.tabulate([scene]).without(&["scene"]).to_html(),
         absent: scene.absent.clone(),
-        gaps: scene.gaps.iter().map(gap).collect(),
+        gaps: match scene.gaps.is_empty() {
+            true => String::new(),
+            false => gaps_table(&scene.gaps).to_html(),
+        },
         compared,
     })
 }
@@ -202,7 +165,7 @@ fn plot_scene(scene: &SceneErrors) -> Result<String, ReportError> {
         .methods
         .iter()
         .filter(|m| is_filter(m))
-        .filter_map(|m| Some((m, m.time?.median_ms)))
+        .filter_map(|m| Some((m, m.time.as_ref()?.median_ms)))
         .filter(|(m, ms)| m.psnr.is_finite() && *ms > 0.0)
         .collect();
     // Methods that no other method beats in both.
@@ -223,7 +186,7 @@ fn plot_scene(scene: &SceneErrors) -> Result<String, ReportError> {
             title: format!(
                 "{}: {} dB, FLIP {:.4}, {} ms",
                 m.method,
-                format_decibels(m.psnr),
+                format_number(m.psnr),
                 m.flip,
                 format_number(*ms)
             ),
@@ -264,23 +227,4 @@ fn plot_scene(scene: &SceneErrors) -> Result<String, ReportError> {
         lines,
     };
     plot.to_svg()
-}
-
-fn build_row(m: &MethodErrors) -> Row {
-    let class = |value: Option<f64>| value.map_or(NONE.to_owned(), format_decibels);
-    Row {
-        method: m.method.clone(),
-        options: format_options(&m.options),
-        psnr: format_decibels(m.psnr),
-        flip: format!("{:.4}", m.flip),
-        ssim: format!("{:.4}", m.ssim),
-        geometry: class(m.psnr_geometry),
-        shading: class(m.psnr_shading),
-        flat: class(m.psnr_flat),
-        gap: format_percent(m.gap_closed),
-        temporal: m.temporal.map_or(NONE.to_owned(), |v| format!("{v:.1e}")),
-        time: m.time.map_or(NONE.to_owned(), |t| format_number(t.median_ms)),
-        bytes: format!("{:.1}", m.bytes as f64 / 1e6),
-        non_finite: m.non_finite,
-    }
 }

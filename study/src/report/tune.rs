@@ -1,9 +1,10 @@
 //! Section on tuning to a scene.
 
 use super::plot::{Dot, Line, Plot, Scale, format_number};
-use super::{ReportError, format_caption, format_options};
-use crate::record::{Candidate, LeftOut, TuneRecord};
+use super::{ReportError, format_caption};
+use crate::record::{Candidate, LeftOut, TuneRecord, join_options};
 use serde::Serialize;
+use straightline_table::Cell;
 
 #[derive(Debug, Serialize)]
 pub(super) struct Tune {
@@ -15,13 +16,14 @@ pub(super) struct Tune {
     /// The GPU that cycles are of, and its compiler.
     compiled_for: Option<String>,
     plot: String,
-    front: Vec<Row>,
-    chosen: Option<Row>,
-    general: Option<Row>,
+    /// Table of the front, and of the most general variant.
+    front: String,
+    /// Name, error, cost and speedup of the chosen variant.
+    chosen: Option<[String; 4]>,
     left_out: Vec<(String, String)>,
     needed: Vec<(String, String)>,
-    /// Term left out of the most general variant, its replacement, the cost of that, and the saving.
-    worth: Vec<[String; 4]>,
+    /// Table of the terms of the most general variant; empty without one.
+    worth: String,
     refused: Vec<(String, String)>,
     reference: String,
     best: String,
@@ -36,29 +38,13 @@ pub(super) struct Tune {
     terms: Vec<(String, String)>,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct Row {
-    name: String,
-    error: String,
-    cost: String,
-    ratio: String,
-    reads: String,
-    bytes: String,
-    chosen: bool,
-}
-
 pub(super) fn build_section(record: &TuneRecord) -> Result<Tune, ReportError> {
-    let row = |index: usize| {
-        record
-            .candidates
-            .get(index)
-            .map(|c| build_row(c, record.chosen == Some(index)))
-    };
     let mut front: Vec<usize> = (0..record.candidates.len())
         .filter(|k| record.candidates[*k].front)
         .collect();
-    let cost = |k: &usize| best_known_cost(&record.candidates[*k]);
+    let cost = |k: &usize| record.candidates[*k].best_known_cost();
     front.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+    let chosen = |k: usize| Some(describe_choice(record.candidates.get(k)?));
     let percent = |value: f64| format!("{:.1} %", value * 100.0);
     let model = &record.model;
     Ok(Tune {
@@ -69,24 +55,14 @@ pub(super) fn build_section(record: &TuneRecord) -> Result<Tune, ReportError> {
         unit: record.unit(),
         compiled_for: record.compiled_for.clone(),
         plot: plot_candidates(record, &front)?,
-        front: front.iter().filter_map(|k| row(*k)).collect(),
-        chosen: record.chosen.and_then(row),
-        general: row(record.general),
+        front: record.front_table(4).to_html(),
+        chosen: record.chosen.and_then(chosen),
         left_out: term_costs(&record.left_out),
         needed: term_costs(&record.needed),
-        worth: record
-            .terms
-            .iter()
-            .map(|worth| {
-                let ratio = worth.ratio.map_or(String::new(), |r| format!("{:.2}", r.median));
-                [
-                    worth.term.clone(),
-                    worth.instead.clone(),
-                    format!("{:.4}", worth.cost),
-                    ratio,
-                ]
-            })
-            .collect(),
+        worth: match record.terms.is_empty() {
+            true => String::new(),
+            false => record.terms_table(|cost| Cell::fixed(cost, 4)).to_html(),
+        },
         refused: record
             .refused
             .iter()
@@ -95,7 +71,7 @@ pub(super) fn build_section(record: &TuneRecord) -> Result<Tune, ReportError> {
         reference: record.reference.clone(),
         best: format!("{:.4}", record.best),
         unfiltered: format!("{:.4}", record.unfiltered),
-        fixed: format_options(&record.fixed),
+        fixed: join_options(&record.fixed),
         tried: record.candidates.len(),
         measured: record.candidates.iter().filter(|c| c.measured_cost().is_some()).count(),
         learned_from: model.learned_from,
@@ -116,32 +92,26 @@ fn term_costs(terms: &[LeftOut]) -> Vec<(String, String)> {
     terms.iter().map(of).collect()
 }
 
-fn best_known_cost(candidate: &Candidate) -> f64 {
-    candidate.measured_cost().unwrap_or(candidate.predicted)
-}
-
-fn build_row(candidate: &Candidate, chosen: bool) -> Row {
-    Row {
-        name: candidate.name.clone(),
-        error: format!("{:.4}", candidate.error),
-        cost: match candidate.measured_cost() {
-            Some(measured) => format!("{measured:.2}"),
-            None => format!("{:.2} (predicted)", candidate.predicted),
-        },
-        ratio: candidate.ratio.map_or(String::new(), |r| {
-            format!("{:.2} ({:.2} to {:.2})", r.median, r.low, r.high)
-        }),
-        reads: format_number(candidate.reads),
-        bytes: format!("{:.1}", candidate.gbuffer_bytes as f64 / 1e6),
-        chosen,
-    }
+/// Returns name, error, cost and speedup of a variant.
+fn describe_choice(candidate: &Candidate) -> [String; 4] {
+    let predicted = if candidate.measured_cost().is_some() {
+        ""
+    } else {
+        " (predicted)"
+    };
+    [
+        candidate.name.clone(),
+        format!("{:.4}", candidate.error),
+        format!("{:.2}{predicted}", candidate.best_known_cost()),
+        candidate.ratio.map_or(String::new(), |ratio| ratio.to_string()),
+    ]
 }
 
 fn plot_candidates(record: &TuneRecord, front: &[usize]) -> Result<String, ReportError> {
     let dots = record.candidates.iter().enumerate().map(|(k, candidate)| {
         let measured = candidate.measured_cost().is_some();
         Dot {
-            at: (best_known_cost(candidate), candidate.error),
+            at: (candidate.best_known_cost(), candidate.error),
             spread: None,
             color: match (record.chosen == Some(k), record.general == k, measured) {
                 (true, ..) => 1,
@@ -158,7 +128,7 @@ fn plot_candidates(record: &TuneRecord, front: &[usize]) -> Result<String, Repor
                 "{}: {:.4}, {} {}{}",
                 candidate.name,
                 candidate.error,
-                format_number(best_known_cost(candidate)),
+                format_number(candidate.best_known_cost()),
                 record.unit(),
                 if measured { "" } else { " (predicted)" }
             ),
@@ -167,7 +137,7 @@ fn plot_candidates(record: &TuneRecord, front: &[usize]) -> Result<String, Repor
     let points = front
         .iter()
         .filter_map(|k| record.candidates.get(*k))
-        .map(|c| (best_known_cost(c), c.error));
+        .map(|c| (c.best_known_cost(), c.error));
     let plot = Plot {
         size: (980, 440),
         axes: (

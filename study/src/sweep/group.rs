@@ -1,9 +1,11 @@
 //! Variants that are compared with each other: made, checked and timed in turn.
 
-use super::{Give, Loops, Sweep, SweepError, Variant, bootstrap};
+use super::{Give, Loops, Sweep, SweepError, Variant};
 use crate::loops::truth;
 use crate::progress::Progress;
 use crate::record::{Measured, Swept};
+use crate::statistics::{CONFIDENCE, Interval};
+use crate::turns::run_in_turn;
 use glam::{UVec2, Vec4};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -16,9 +18,6 @@ use straightline_runtime::{Pass, PassOptions};
 
 /// Rounds between two looks at how sure the ratios are.
 const ROUNDS_AT_ONCE: u32 = 10;
-
-/// Of how many samples an interval is to hold the median.
-const CONFIDENCE: f64 = 0.95;
 
 /// A variant on the device.
 struct Ready {
@@ -226,14 +225,9 @@ fn time_shaders(
             .until
             .map_or(sweep.rounds, |_| ROUNDS_AT_ONCE)
             .min(sweep.rounds - done);
-        let times = bench.in_turn(&mut works, at_once, |round| {
-            if round > 0 {
-                progress.step();
-            }
-            !progress.is_stopped()
-        })?;
-        for (rounds, times) in rounds.iter_mut().zip(times.rounds) {
-            rounds.extend(times.iter().map(|time| time.as_secs_f64() * 1e3));
+        let times = run_in_turn(bench, &mut works, at_once, progress)?;
+        for (rounds, more) in rounds.iter_mut().zip(times.rounds_ms()) {
+            rounds.extend(more);
         }
         done += at_once;
         if let (Some(until), Some(base)) = (sweep.until, base)
@@ -246,13 +240,8 @@ fn time_shaders(
     Ok(enough.then_some(rounds))
 }
 
-/// Speedup over `base`, round by round.
-fn speedups_by_round(own: &[f64], base: &[f64]) -> Vec<f64> {
-    base.iter().zip(own).map(|(base, own)| base / own.max(1e-9)).collect()
-}
-
 fn is_sure(own: &[f64], base: &[f64], until: f64) -> bool {
-    let interval = bootstrap::median_of(&speedups_by_round(own, base), CONFIDENCE);
+    let interval = Interval::of_ratio(base, own);
     interval.is_some_and(|interval| interval.spread() <= until)
 }
 
@@ -268,8 +257,8 @@ fn measured_figures(ready: &Ready, rounds: &[f64], base: Option<&[f64]>) -> Meas
         reads: emitted.then(|| counts.reads.values().sum()),
         spirv_bytes: spirv.filter(|_| emitted).map(Vec::len),
         rounds_ms: rounds.to_vec(),
-        median_ms: bootstrap::median_of(rounds, CONFIDENCE).map_or(0.0, |of| of.median),
-        speedup: base.and_then(|base| bootstrap::median_of(&speedups_by_round(rounds, base), CONFIDENCE)),
+        median_ms: Interval::of_median(rounds, CONFIDENCE).map_or(0.0, |of| of.median),
+        speedup: base.and_then(|base| Interval::of_ratio(base, rounds)),
         difference: ready.difference,
         difference_999: ready.difference_999,
     }

@@ -1,7 +1,7 @@
 //! Records of sweeps beside each other: shards joined, runs compared.
 
-use super::bootstrap::{self, Interval};
 use crate::record::{Measured, Shard, SweepRecord, Swept};
+use crate::statistics::{Interval, ratios_by_round};
 use std::collections::BTreeMap;
 
 /// Why records do not belong together.
@@ -166,8 +166,8 @@ pub fn compare_records(first: &SweepRecord, second: &SweepRecord, tolerance: f64
         .collect();
     let confidence = 1.0 - 0.05 / pairs.len().max(1) as f64;
     let compared = pairs.into_iter().filter_map(|(variant, [one, other])| {
-        let quotient = bootstrap::quotient_of(&other, &one, confidence)?;
-        let median = |of: &[f64]| bootstrap::median_of(of, confidence).map(|of| of.median);
+        let quotient = Interval::of_quotient(&other, &one, confidence)?;
+        let median = |of: &[f64]| Interval::of_median(of, confidence).map(|of| of.median);
         Some(Compared {
             settings: variant.settings.clone(),
             rival: variant.rival.clone(),
@@ -195,5 +195,5 @@ fn baseline_speedups(record: &SweepRecord, variant: &Swept) -> Option<Vec<f64>> 
     }
     let rounds = |of: &Option<Measured>| of.as_ref().map(|measured| measured.rounds_ms.clone());
     let (base, own) = (rounds(&base.measured)?, rounds(&variant.measured)?);
-    Some(base.iter().zip(own).map(|(base, own)| base / own.max(1e-9)).collect())
+    Some(ratios_by_round(&base, &own))
 }

@@ -4,7 +4,6 @@
 //! and the speedup of one over the group's baseline is taken of each round by itself, so that whatever slows a whole
 //! round down cancels.
 
-mod bootstrap;
 mod group;
 mod joined;
 mod rival;
@@ -17,7 +16,6 @@ use std::time::Duration;
 use straightline_bench::execute::{Bench, ExecuteError, Inputs};
 use straightline_codegen::{Compiled, Kernel};
 
-pub use bootstrap::{Interval, median_of, quotient_of};
 pub use joined::{Compared, JoinError, compare_records, join_shards};
 pub use rival::Rival;
 pub use space::{Axis, Loops, RESERVED, Space, Variant, parse_values, spell_value, varied_knob};

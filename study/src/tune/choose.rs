@@ -6,8 +6,8 @@ use super::{Chosen, Term, TuneError, Variant};
 use crate::builtin::spell_settings;
 use crate::progress::Progress;
 use crate::record::{Candidate, Circumstances, LeftOut, Refused, TermWorth, TuneRecord};
+use crate::statistics::Interval;
 use std::collections::BTreeMap;
-use straightline_bench::execute::Ratio;
 use straightline_manifest::Tuned;
 
 /// Variants of the predicted front that are measured; a longer one is thinned out evenly.
@@ -116,7 +116,7 @@ impl Search {
     /// [`TuneError::NothingWithin`], with the closest variant.
     fn choose_fastest(&self) -> Result<usize, TuneError> {
         let within = self.finalists.iter().copied().filter(|k| self.is_within(*k));
-        let measured: Vec<(usize, Ratio)> = within.filter_map(|k| Some((k, self.entries[k].ratio?))).collect();
+        let measured: Vec<(usize, Interval)> = within.filter_map(|k| Some((k, self.entries[k].ratio?))).collect();
         let fastest = measured.iter().map(|(_, ratio)| ratio.median).fold(0.0, f64::max);
         let as_fast = measured
             .iter()
@@ -277,7 +277,7 @@ impl Search {
             statements: entry.known.as_ref().map_or(0.0, |known| known.statements),
             gbuffer_bytes: self.gbuffer_bytes(entry.variant),
             predicted: entry.predicted,
-            time: entry.time,
+            time: entry.time.clone(),
             cycles: entry.cycles,
             ratio: entry.ratio,
             front: false,

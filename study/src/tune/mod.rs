@@ -79,6 +79,14 @@ impl ErrorMetric {
         }
     }
 
+    /// Returns the decimals with which errors are shown.
+    pub fn decimals(self) -> usize {
+        match self {
+            ErrorMetric::Psnr => 2,
+            ErrorMetric::Flip => 4,
+        }
+    }
+
     /// An error as it is printed, with its unit.
     pub fn format_error(self, error: f64) -> String {
         match self {

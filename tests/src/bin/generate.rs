@@ -4,6 +4,7 @@ use cpu_time::ProcessTime;
 use std::process::ExitCode;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Unroll};
+use straightline_table::Table;
 
 /// A kernel of taps in a square, each with an exponential, of so many statements as the option says.
 const SQUARE: &str = "
@@ -80,10 +81,7 @@ fn variants() -> Result<(), String> {
 
 /// Time and memory of one kernel by its size.
 fn sizes() -> Result<(), String> {
-    println!(
-        "\n| statements | compiled, s | described, s | a statement, ms | emitted as WGSL, s | of which naga reads, s | memory at most, MB |"
-    );
-    println!("| --: | --: | --: | --: | --: | --: | --: |");
+    let mut rows = Vec::new();
     let limits = |settings: Settings| {
         let time = std::time::Duration::from_secs(600);
         settings.budget(u32::MAX).time_limit(time).memory_limit(8 << 30)
@@ -105,12 +103,22 @@ fn sizes() -> Result<(), String> {
             ..=MOST_EMITTED => emission(&compiled)?,
             _ => ("–".to_owned(), "–".to_owned()),
         };
-        println!(
-            "| {} | {compile:.2} | {describe:.2} | {each:.3} | {emit} | {read} | {} |",
+        rows.push((
             counts.statements,
-            peak_memory()
-        );
+            [compile, describe, each],
+            [emit, read, peak_memory()],
+        ));
     }
+    let table = Table::of(&rows)
+        .column("statements", |(statements, ..)| *statements)
+        .fixed("compiled, s", 2, |(_, times, _)| times[0])
+        .fixed("described, s", 2, |(_, times, _)| times[1])
+        .fixed("a statement, ms", 3, |(_, times, _)| times[2])
+        .column("emitted as WGSL, s", |(.., rest)| &rest[0])
+        .column("of which naga reads, s", |(.., rest)| &rest[1])
+        .column("memory at most, MB", |(.., rest)| &rest[2])
+        .finish();
+    println!("\n{}", table.to_markdown());
     Ok(())
 }
 

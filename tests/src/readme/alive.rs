@@ -1,8 +1,8 @@
 //! Registers of a GPU's compiler by the scalars that are alive at once in the text.
 
-use super::markdown;
 use super::rank::{pearson, ranks};
 use straightline_study::record::{IsaRecord, SpirvPath};
+use straightline_table::Table;
 
 /// Scalars alive at most, of each row.
 const UP_TO: [u32; 7] = [16, 24, 32, 48, 64, 96, u32::MAX];
@@ -12,14 +12,11 @@ type Shader = (u32, u64, u64);
 
 /// Registers and waves of the shaders of a record, by the scalars that are alive in them; in the last row, how well the two
 /// orders agree.
-pub fn registers(record: &IsaRecord) -> Result<String, String> {
-    let Some(family) = record.devices.keys().next() else {
-        return Err("the record has no family".to_owned());
-    };
+pub fn registers(record: &IsaRecord) -> Result<Table, String> {
     let by_naga = record.shaders.iter().filter(|asked| asked.path == SpirvPath::Naga);
     let shaders: Vec<Shader> = by_naga
         .filter_map(|asked| {
-            let figures = asked.figures.get(family)?;
+            let figures = asked.figures.values().next()?;
             Some((asked.alive?, figures.vector_registers, figures.occupancy))
         })
         .collect();
@@ -41,32 +38,21 @@ pub fn registers(record: &IsaRecord) -> Result<String, String> {
             continue;
         };
         let middle = |of: &[u64]| of[of.len() / 2].to_string();
-        rows.push(vec![
-            words,
-            some.len().to_string(),
-            middle(&registers),
-            format!("{fewest} to {most}"),
-            middle(&waves),
-        ]);
+        let range = format!("{fewest} to {most}");
+        rows.push((words, some.len(), [middle(&registers), range, middle(&waves)]));
     }
     let alive: Vec<f64> = shaders.iter().map(|s| f64::from(s.0)).collect();
     let registers: Vec<f64> = shaders.iter().map(|s| s.1 as f64).collect();
-    let agreement = pearson(&ranks(&alive), &ranks(&registers));
-    rows.push(vec![
-        "rank correlation".to_owned(),
-        shaders.len().to_string(),
-        format!("{agreement:.2}"),
-        String::new(),
-        String::new(),
-    ]);
-    let head = [
-        "scalars alive",
-        "shaders",
-        "registers, median",
-        "fewest to most",
-        "waves at once, median",
-    ];
-    Ok(markdown(&head, rows))
+    let agreement = format!("{:.2}", pearson(&ranks(&alive), &ranks(&registers)));
+    let last = [agreement, String::new(), String::new()];
+    rows.push(("rank correlation".to_owned(), shaders.len(), last));
+    Ok(Table::of(&rows)
+        .column("scalars alive", |row| &row.0)
+        .column("shaders", |row| row.1)
+        .column("registers, median", |row| &row.2[0])
+        .column("fewest to most", |row| &row.2[1])
+        .column("waves at once, median", |row| &row.2[2])
+        .finish())
 }
 
 fn sorted(of: impl Iterator<Item = u64>) -> Vec<u64> {

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use straightline_table::{Column, Table};
 
 /// A row for each member of the workspace: the other members that it is built with, and those of its tests alone.
-pub fn needs(workspace: &Path) -> Result<String, String> {
+pub fn needs(files: &[&Path]) -> Result<Table, String> {
+    let workspace = files.first().ok_or("the table has no workspace")?;
     let root = workspace.parent().unwrap_or(Path::new("."));
     let members = read(workspace)?;
     let members = members.get("workspace").and_then(|w| w.get("members")?.as_array());
@@ -41,12 +43,12 @@ pub fn needs(workspace: &Path) -> Result<String, String> {
         })
         .collect();
     rows.sort();
-    let mut text = "| crate | is built with | and tested with |\n| --- | --- | --- |\n".to_owned();
-    for (_, folder, built, tested) in rows {
-        let shown = |names: String| if names.is_empty() { "–".to_owned() } else { names };
-        text += &format!("| `{folder}` | {} | {} |\n", shown(built), shown(tested));
-    }
-    Ok(text)
+    let shown = |names: &str| (!names.is_empty()).then(|| names.to_owned());
+    Ok(Table::of(&rows)
+        .column("crate", |(_, folder, ..)| format!("`{folder}`"))
+        .column(Column::from("is built with").left(), |(_, _, built, _)| shown(built))
+        .column(Column::from("and tested with").left(), |(.., tested)| shown(tested))
+        .finish())
 }
 
 fn read(path: &Path) -> Result<toml::Table, String> {

@@ -1,52 +1,35 @@
 //! Gain from mathematics that may change roundings.
 
-use super::markdown;
-use straightline_study::record::{Asked, FormKind, FormRecord, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
+use straightline_study::record::{FormKind, FormRecord, IsaRecord, LoopsRecord, SpirvPath};
+use straightline_table::{Cell, Table};
 
 /// Cycles by a compiler, and errors on a driver, of exact and of fast mathematics.
-pub fn mathematics(cycles: &IsaRecord, times: &LoopsRecord) -> Result<String, String> {
-    let Some(family) = cycles.devices.keys().next() else {
-        return Err("the record has no family".to_owned());
-    };
-    let head = [
-        "kernel",
-        "cycles",
-        "**fast**",
-        "off f64 by",
-        "**fast**",
-        "all pixels",
-        "**fast**",
-    ];
-    let of = |asked: &Asked, form| {
-        let is = |other: &&Asked| {
-            (&other.kernel, &other.options, other.form, other.path)
-                == (&asked.kernel, &asked.options, form, SpirvPath::Naga)
-        };
-        let found = cycles
-            .shaders
-            .iter()
-            .find(is)
-            .and_then(|found| found.figures.get(family));
-        found.map_or_else(|| "–".to_owned(), |figures| figures.inverse_throughput.to_string())
-    };
-    let off = |of: Option<f64>| of.map_or_else(|| "–".to_owned(), |off| format!("{off:.0e}"));
-    let fast = |asked: &&Asked| asked.form == IsaForm::Fast && asked.path == SpirvPath::Naga;
-    let rows = cycles.shaders.iter().filter(fast).filter_map(|asked| {
-        let timed = times
-            .kernels
-            .iter()
-            .find(|kernel| kernel.kernel == asked.kernel && kernel.options == asked.options)?;
-        let form = |kind| -> Option<&FormRecord> { timed.form(kind) };
-        let (exact, fast) = (form(FormKind::Full), form(FormKind::FullFast));
-        Some(vec![
-            asked.kernel.clone(),
-            of(asked, IsaForm::Unrolled),
-            format!("**{}**", of(asked, IsaForm::Fast)),
-            off(exact.and_then(|form| form.difference_999)),
-            format!("**{}**", off(fast.and_then(|form| form.difference_999))),
-            off(exact.and_then(|form| form.difference)),
-            format!("**{}**", off(fast.and_then(|form| form.difference))),
-        ])
+pub fn mathematics(cycles: &IsaRecord, times: &LoopsRecord) -> Table {
+    let fast = cycles.shaders.iter();
+    let fast = fast.filter(|asked| asked.form == FormKind::FullFast && asked.path == SpirvPath::Naga);
+    let rows = fast.filter_map(|asked| {
+        let mut kernels = times.kernels.iter();
+        let timed = kernels.find(|kernel| kernel.kernel == asked.kernel && kernel.options == asked.options)?;
+        let cycles =
+            [FormKind::Full, FormKind::FullFast].map(|form| Some(cycles.counterpart(asked, form)?.inverse_throughput));
+        Some((
+            asked,
+            cycles,
+            [FormKind::Full, FormKind::FullFast].map(|kind| timed.form(kind)),
+        ))
     });
-    Ok(markdown(&head, rows.collect()))
+    let bold = |cell: Option<String>| format!("**{}**", cell.unwrap_or_else(|| "–".to_owned()));
+    let off = |form: Option<&FormRecord>, all: bool| {
+        let off = form.and_then(|form| if all { form.difference } else { form.difference_999 });
+        off.map(|off| format!("{off:.0e}"))
+    };
+    Table::of(rows)
+        .column("kernel", |(asked, ..)| &asked.kernel)
+        .column("cycles", |(_, [exact, _], _)| exact.map(Cell::from))
+        .column("**fast**", |(_, [_, fast], _)| bold(fast.map(|fast| fast.to_string())))
+        .column("off f64 by", |(.., [exact, _])| off(*exact, false))
+        .column("**fast**", |(.., [_, fast])| bold(off(*fast, false)))
+        .column("all pixels", |(.., [exact, _])| off(*exact, true))
+        .column("**fast**", |(.., [_, fast])| bold(off(*fast, true)))
+        .finish()
 }

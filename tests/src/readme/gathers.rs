@@ -1,82 +1,62 @@
 //! Gain from reading four texels at once.
 
-use super::markdown;
 use straightline_isa::Figures;
-use straightline_study::record::{Asked, FormKind, FormRecord, IsaForm, IsaRecord, LoopsRecord, SpirvPath};
+use straightline_study::record::{FormKind, FormRecord, IsaRecord, KernelForms, LoopsRecord, SpirvPath};
+use straightline_table::{Cell, Table};
 
 /// Instructions that read or write images, registers, cycles and latency of kernels without gathers and with them; of those
 /// of which no branch is left but the border's, whose cycles are no guesses.
-pub fn gathers(record: &IsaRecord) -> Result<String, String> {
-    let Some(family) = record.devices.keys().next() else {
-        return Err("the record has no family".to_owned());
-    };
-    let head = [
-        "kernel",
-        "image instructions",
-        "**gathered**",
-        "registers",
-        "gathered",
-        "cycles",
-        "**gathered**",
-        "latency",
-        "gathered",
-    ];
-    let gathered = |asked: &&Asked| asked.form == IsaForm::Gather && asked.path == SpirvPath::Naga;
-    let rows = record.shaders.iter().filter(gathered).filter_map(|asked| {
-        let is = |other: &&Asked| {
-            (&other.kernel, &other.options, other.form, other.path)
-                == (&asked.kernel, &asked.options, IsaForm::Unrolled, SpirvPath::Naga)
-        };
-        let alone = record.shaders.iter().find(is)?.figures.get(family)?;
-        let four = asked.figures.get(family).filter(|four| four.branches <= 1)?;
-        let pair = |of: fn(&Figures) -> u64, bold: bool| {
-            let four = of(four);
-            [
-                of(alone).to_string(),
-                if bold { format!("**{four}**") } else { four.to_string() },
-            ]
-        };
-        let cells = [
-            pair(|f| f.memory, true),
-            pair(|f| f.vector_registers, false),
-            pair(|f| f.inverse_throughput, true),
-            pair(|f| f.latency, false),
-        ];
-        Some(
-            std::iter::once(asked.kernel.clone())
-                .chain(cells.into_iter().flatten())
-                .collect(),
-        )
+pub fn gathers(record: &IsaRecord) -> Table {
+    type Pair<'r> = (&'r String, &'r Figures, &'r Figures);
+    let gathered = record.shaders.iter();
+    let gathered = gathered.filter(|asked| asked.form == FormKind::FullGather && asked.path == SpirvPath::Naga);
+    let rows = gathered.filter_map(|asked| -> Option<Pair<'_>> {
+        let four = asked.figures.values().next().filter(|four| four.branches <= 1)?;
+        Some((&asked.kernel, record.counterpart(asked, FormKind::Full)?, four))
     });
-    Ok(markdown(&head, rows.collect()))
+    Table::of(rows)
+        .column("kernel", |(kernel, ..)| *kernel)
+        .column("image instructions", |(_, alone, _)| alone.memory)
+        .column("**gathered**", |(.., four)| format!("**{}**", four.memory))
+        .column("registers", |(_, alone, _)| alone.vector_registers)
+        .column("gathered", |(.., four)| four.vector_registers)
+        .column("cycles", |(_, alone, _)| alone.inverse_throughput)
+        .column("**gathered**", |(.., four)| format!("**{}**", four.inverse_throughput))
+        .column("latency", |(_, alone, _)| alone.latency)
+        .column("gathered", |(.., four)| four.latency)
+        .finish()
 }
 
 /// Times without gathers and with them, on each driver, and what of the speedup over the looped form is left if the one is
 /// divided by the other.
-pub fn times(records: &[LoopsRecord]) -> Result<String, String> {
+pub fn times(records: &[LoopsRecord]) -> Result<Table, String> {
     let [first, ..] = records else {
         return Err("no record is given".to_owned());
     };
-    let mut head = vec!["kernel".to_owned(), "reads".to_owned(), "gathered".to_owned()];
-    for record in records {
-        let name = record.circumstances.adapter.split(' ').next().unwrap_or_default();
-        head.extend(["unrolled", "gathered", "**speedup**"].map(|what| format!("{what}, {name}")));
-    }
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    let both = |record: &'_ LoopsRecord, name: &str| -> Option<[FormRecord; 2]> {
+        let kernel: &KernelForms = record.kernels.iter().find(|other| other.kernel == name)?;
+        Some([
+            kernel.form(FormKind::Full)?.clone(),
+            kernel.form(FormKind::FullGather)?.clone(),
+        ])
+    };
     let rows = first.kernels.iter().filter_map(|kernel| {
-        let reads = |kind| kernel.form(kind).map(|form: &FormRecord| form.reads.to_string());
-        let mut cells = vec![
-            kernel.kernel.clone(),
-            reads(FormKind::Full)?,
-            reads(FormKind::FullGather)?,
-        ];
-        for record in records {
-            let same = record.kernels.iter().find(|other| other.kernel == kernel.kernel)?;
-            let (full, gathered) = (same.form(FormKind::Full)?, same.form(FormKind::FullGather)?);
-            cells.extend([full, gathered].map(|form| format!("{:.1} ms", form.time.median_ms)));
-            cells.push(format!("**{:.2}**", gathered.ratio.median / full.ratio.median));
-        }
-        Some(cells)
+        let all: Option<Vec<_>> = records.iter().map(|record| both(record, &kernel.kernel)).collect();
+        Some((&kernel.kernel, all?))
     });
-    Ok(markdown(&head, rows.collect()))
+    let mut table = Table::of(rows)
+        .column("kernel", |(kernel, _)| *kernel)
+        .column("reads", |(_, all)| all[0][0].reads)
+        .column("gathered", |(_, all)| all[0][1].reads);
+    for (k, record) in records.iter().enumerate() {
+        let name = record.circumstances.adapter.split(' ').next().unwrap_or_default();
+        let ms = |form: &FormRecord| Cell::fixed(form.time.median_ms, 1).suffixed(" ms");
+        table = table
+            .column(format!("unrolled, {name}"), |(_, all)| ms(&all[k][0]))
+            .column(format!("gathered, {name}"), |(_, all)| ms(&all[k][1]))
+            .column(format!("**speedup**, {name}"), |(_, all)| {
+                format!("**{:.2}**", all[k][1].ratio.median / all[k][0].ratio.median)
+            });
+    }
+    Ok(table.finish())
 }

@@ -1,12 +1,13 @@
 //! Goals for speed, and their state in the records.
 
-use super::markdown;
 use super::quality::GEOMETRIC;
+use super::{read, read_all};
 use std::path::Path;
 use straightline_isa::Figures;
 use straightline_study::record::{
-    FormKind, IsaForm, IsaRecord, KernelForms, LoopsRecord, QualityRecord, Record, SpirvPath, SweepRecord, Swept,
+    FormKind, IsaRecord, KernelForms, LoopsRecord, QualityRecord, SpirvPath, SweepRecord, Swept,
 };
+use straightline_table::Table;
 
 /// The small kernels of others.
 const EXAMPLES: [&str; 10] = [
@@ -23,13 +24,12 @@ const EXAMPLES: [&str; 10] = [
 ];
 
 /// A goal: the measure, its value when the goal was set, the goal, and its current value.
-struct Goal {
-    what: String,
-    was: &'static str,
-    goal: String,
-    now: Vec<f64>,
-    is_met: bool,
-    digits: usize,
+pub(super) struct Goal {
+    pub what: String,
+    pub was: &'static str,
+    pub goal: String,
+    pub now: String,
+    pub is_met: bool,
 }
 
 impl Goal {
@@ -38,40 +38,39 @@ impl Goal {
             what: what.to_owned(),
             was,
             goal: format!("at most {most}"),
-            now: vec![now],
+            now: format!("{now:.digits$}"),
             is_met: now <= most,
-            digits,
         }
     }
 
     fn at_least(what: &str, was: &'static str, least: &[f64], now: Vec<f64>) -> Goal {
-        let words: Vec<String> = least.iter().map(f64::to_string).collect();
+        let join = |values: Vec<String>| values.join("; ");
         Goal {
             what: what.to_owned(),
             was,
-            goal: format!("at least {}", words.join("; ")),
+            goal: format!("at least {}", join(least.iter().map(f64::to_string).collect())),
             is_met: now.iter().zip(least.iter().cycle()).all(|(now, least)| now >= least),
-            now,
-            digits: 2,
+            now: join(now.iter().map(|now| format!("{now:.2}")).collect()),
         }
     }
+}
 
-    fn row(self) -> Vec<String> {
-        let now: Vec<String> = self.now.iter().map(|now| format!("{now:.*}", self.digits)).collect();
-        let is_met = if self.is_met { "yes" } else { "no" };
-        vec![
-            self.what,
-            self.was.to_owned(),
-            self.goal,
-            format!("**{}**", now.join("; ")),
-            is_met.to_owned(),
-        ]
-    }
+/// Table of goals.
+pub(super) fn goals_table(goals: Vec<Goal>) -> Table {
+    let has_past = goals.iter().any(|goal| !goal.was.is_empty());
+    let table = Table::of(&goals)
+        .column("what", |goal| &goal.what)
+        .column("when set", |goal| goal.was)
+        .column("goal", |goal| &goal.goal)
+        .column("now", |goal| format!("**{}**", goal.now))
+        .column("met", |goal| if goal.is_met { "yes" } else { "no" })
+        .finish();
+    if has_past { table } else { table.without(&["when set"]) }
 }
 
 /// The table of the records that are named in this order: cycles, tiles, times of forms and of Slang's text on two drivers, and
 /// methods.
-pub fn table(files: &[&Path]) -> Result<String, String> {
+pub fn table(files: &[&Path]) -> Result<Table, String> {
     let [
         isa,
         tiles,
@@ -84,20 +83,13 @@ pub fn table(files: &[&Path]) -> Result<String, String> {
     else {
         return Err("the table `goals` needs seven records".to_owned());
     };
-    let why = |error: straightline_study::record::RecordError| error.to_string();
-    let (isa, tiles) = (IsaRecord::read(isa).map_err(why)?, IsaRecord::read(tiles).map_err(why)?);
-    let loops = [
-        LoopsRecord::read(lavapipe).map_err(why)?,
-        LoopsRecord::read(swiftshader).map_err(why)?,
-    ];
-    let rivals = [
-        SweepRecord::read(slang_lavapipe).map_err(why)?,
-        SweepRecord::read(slang_swiftshader).map_err(why)?,
-    ];
-    let error = QualityRecord::read(error).map_err(why)?;
-    let cycles = |name: &str| figures(&isa, name, IsaForm::Unrolled).map(|figures| figures.inverse_throughput as f64);
+    let (isa, tiles): (IsaRecord, IsaRecord) = (read(&[isa], 0)?, read(&[tiles], 0)?);
+    let loops: Vec<LoopsRecord> = read_all(&[lavapipe, swiftshader])?;
+    let rivals: Vec<SweepRecord> = read_all(&[slang_lavapipe, slang_swiftshader])?;
+    let error: QualityRecord = read(&[error], 0)?;
+    let cycles = |name: &str| figures(&isa, name, FormKind::Full).map(|figures| figures.inverse_throughput as f64);
     let images =
-        |name: &str| figures(&tiles, name, IsaForm::Tile).map(|figures| (figures.memory - figures.shared) as f64);
+        |name: &str| figures(&tiles, name, FormKind::FullTile).map(|figures| (figures.memory - figures.shared) as f64);
     let both = |of: &dyn Fn(&LoopsRecord) -> Result<f64, String>| loops.iter().map(of).collect::<Result<Vec<_>, _>>();
     let goals = [
         Goal::at_most(
@@ -169,19 +161,11 @@ pub fn table(files: &[&Path]) -> Result<String, String> {
             by_floor(&loops[0])?,
         ),
     ];
-    let head = ["what", "when set", "goal", "now", "met"];
-    Ok(markdown(&head, goals.into_iter().map(Goal::row).collect()))
+    Ok(goals_table(goals.into()))
 }
 
-fn figures<'r>(record: &'r IsaRecord, name: &str, form: IsaForm) -> Result<&'r Figures, String> {
-    let is = |asked: &&straightline_study::record::Asked| {
-        asked.kernel == name && asked.form == form && asked.path == SpirvPath::Naga
-    };
-    let found = record
-        .shaders
-        .iter()
-        .find(is)
-        .and_then(|asked| asked.figures.values().next());
+fn figures<'r>(record: &'r IsaRecord, name: &str, form: FormKind) -> Result<&'r Figures, String> {
+    let found = record.figures(name, form, SpirvPath::Naga);
     found.ok_or_else(|| format!("the record has no figures of {name}"))
 }
 
@@ -227,7 +211,7 @@ fn over_smaa(record: &QualityRecord) -> Result<f64, String> {
             .iter()
             .filter(|scene| GEOMETRIC.contains(&scene.scene.as_str()));
         let methods = scenes.filter_map(|scene| scene.methods.iter().find(|method| method.method == name));
-        let times: Vec<f64> = methods.filter_map(|method| Some(method.time?.median_ms)).collect();
+        let times: Vec<f64> = methods.filter_map(|method| method.median_ms()).collect();
         match times.is_empty() {
             true => Err(format!("the record has no times of {name}")),
             false => Ok(times.iter().sum::<f64>() / times.len() as f64),

@@ -1,13 +1,12 @@
 //! Hard cases.
 
-use super::markdown;
 use std::path::Path;
 use straightline_study::record::read_file;
+use straightline_table::Table;
 
 /// Every kernel of the hard cases on all adapters: how often it was not finite, or beyond its bound. From CSV: the JSON of
 /// thousands of results is too long to be kept.
-pub fn kernels(files: &[&Path]) -> Result<String, String> {
-    let head = ["kernel", "precision", "results", "not finite", "beyond their bound"];
+pub fn kernels(files: &[&Path]) -> Result<Table, String> {
     let mut rows: Vec<((String, String), [usize; 3])> = Vec::new();
     for file in files {
         let text = read_file(file).map_err(|error| error.to_string())?;
@@ -45,10 +44,11 @@ pub fn kernels(files: &[&Path]) -> Result<String, String> {
         }
     }
     rows.sort_by_key(|((_, precision), _)| precision != "f32");
-    let row = |((kernel, precision), counts): ((String, String), [usize; 3])| {
-        let mut cells = vec![kernel, precision];
-        cells.extend(counts.map(|count| count.to_string()));
-        cells
-    };
-    Ok(markdown(&head, rows.into_iter().map(row).collect()))
+    Ok(Table::of(&rows)
+        .column("kernel", |((kernel, _), _)| kernel)
+        .column("precision", |((_, precision), _)| precision)
+        .column("results", |(_, counts)| counts[0])
+        .column("not finite", |(_, counts)| counts[1])
+        .column("beyond their bound", |(_, counts)| counts[2])
+        .finish())
 }

@@ -1,81 +1,56 @@
 //! Statistics of GPU compilers.
 
-use super::markdown;
-use straightline_isa::{Family, Figures};
-use straightline_study::record::{Asked, IsaForm, IsaRecord, SpirvPath};
+use straightline_isa::Figures;
+use straightline_study::record::{FormKind, IsaRecord, SpirvPath};
+use straightline_table::{Cell, Table};
 
 /// Each kernel on one family: the unrolled form in full, of looped forms cycles and branches.
-pub fn cycles(record: &IsaRecord) -> Result<String, String> {
-    let Some(family) = record.devices.keys().next() else {
-        return Err("the record has no family".to_owned());
-    };
-    let head = [
-        "kernel",
-        "instructions",
-        "memory",
-        "registers",
-        "**unrolled**",
-        "looped",
-        "bounded",
-        "by glslang",
-        "hand-optimised",
-        "bounded",
-    ];
+pub fn cycles(record: &IsaRecord) -> Table {
     let mut names: Vec<&str> = record.shaders.iter().map(|asked| asked.kernel.as_str()).collect();
     names.dedup();
-    let rows = names.into_iter().map(|name| row(record, *family, name));
-    Ok(markdown(&head, rows.collect()))
+    let unrolled = |name: &str, figure: fn(&Figures) -> u64| {
+        record
+            .figures(name, FormKind::Full, SpirvPath::Naga)
+            .map(figure)
+            .map(Cell::from)
+    };
+    let looped = |name: &str, form, path| {
+        let figures = record.figures(name, form, path);
+        figures.map(|figures| format!("{}, {}", figures.inverse_throughput, figures.branches))
+    };
+    Table::of(names)
+        .column("kernel", |name| *name)
+        .column("instructions", |name| unrolled(name, |f| f.instructions))
+        .column("memory", |name| unrolled(name, |f| f.memory))
+        .column("registers", |name| unrolled(name, |f| f.vector_registers))
+        .column("**unrolled**", |name| {
+            let figures = record.figures(name, FormKind::Full, SpirvPath::Naga);
+            figures.map(|figures| format!("**{}**", figures.inverse_throughput))
+        })
+        .column("looped", |name| looped(name, FormKind::Looped, SpirvPath::Naga))
+        .column("bounded", |name| looped(name, FormKind::Looped, SpirvPath::NagaBounded))
+        .column("by glslang", |name| looped(name, FormKind::Looped, SpirvPath::Glslang))
+        .column("hand-optimised", |name| {
+            looped(name, FormKind::LoopedByHand, SpirvPath::Naga)
+        })
+        .column("bounded", |name| {
+            looped(name, FormKind::LoopedByHand, SpirvPath::NagaBounded)
+        })
+        .finish()
 }
 
 /// Comparison with Slang's compiler, on one family.
-pub fn rivals(record: &IsaRecord) -> Result<String, String> {
-    let Some(family) = record.devices.keys().next() else {
-        return Err("the record has no family".to_owned());
-    };
-    let head = ["kernel", "instructions", "by Slang", "**cycles**", "by Slang"];
-    let of = |name: &str, form| {
-        let is = |asked: &&Asked| asked.kernel == name && asked.form == form && asked.path == SpirvPath::Naga;
-        record.shaders.iter().find(is)?.figures.get(family)
-    };
-    let by_slang = record.shaders.iter().filter(|asked| asked.form == IsaForm::Slang);
+pub fn rivals(record: &IsaRecord) -> Table {
+    let by_slang = record.shaders.iter().filter(|asked| asked.form == FormKind::Slang);
     let rows = by_slang.filter_map(|asked| {
-        let (ours, theirs) = (of(&asked.kernel, IsaForm::Unrolled)?, asked.figures.get(family)?);
-        Some(vec![
-            asked.kernel.clone(),
-            ours.instructions.to_string(),
-            theirs.instructions.to_string(),
-            format!("**{}**", ours.inverse_throughput),
-            theirs.inverse_throughput.to_string(),
-        ])
+        let ours = record.figures(&asked.kernel, FormKind::Full, SpirvPath::Naga)?;
+        Some((&asked.kernel, ours, asked.figures.values().next()?))
     });
-    Ok(markdown(&head, rows.collect()))
-}
-
-fn row(record: &IsaRecord, family: Family, name: &str) -> Vec<String> {
-    let of = |form, path| -> Option<&Figures> {
-        let is = |asked: &&Asked| asked.kernel == name && asked.form == form && asked.path == path;
-        record.shaders.iter().find(is)?.figures.get(&family)
-    };
-    let looped = |form, path| match of(form, path) {
-        None => "–".to_owned(),
-        Some(figures) => format!("{}, {}", figures.inverse_throughput, figures.branches),
-    };
-    let mut cells = vec![name.to_owned()];
-    cells.extend(match of(IsaForm::Unrolled, SpirvPath::Naga) {
-        None => vec!["–".to_owned(); 4],
-        Some(f) => vec![
-            f.instructions.to_string(),
-            f.memory.to_string(),
-            f.vector_registers.to_string(),
-            format!("**{}**", f.inverse_throughput),
-        ],
-    });
-    cells.extend([
-        looped(IsaForm::Looped, SpirvPath::Naga),
-        looped(IsaForm::Looped, SpirvPath::NagaBounded),
-        looped(IsaForm::Looped, SpirvPath::Glslang),
-        looped(IsaForm::ByHand, SpirvPath::Naga),
-        looped(IsaForm::ByHand, SpirvPath::NagaBounded),
-    ]);
-    cells
+    Table::of(rows)
+        .column("kernel", |(kernel, ..)| *kernel)
+        .column("instructions", |(_, ours, _)| ours.instructions)
+        .column("by Slang", |(.., theirs)| theirs.instructions)
+        .column("**cycles**", |(_, ours, _)| format!("**{}**", ours.inverse_throughput))
+        .column("by Slang", |(.., theirs)| theirs.inverse_throughput)
+        .finish()
 }

@@ -26,10 +26,8 @@ mod tiles;
 mod tune;
 
 use std::path::Path;
-use straightline_study::record::{
-    FrameRecord, IsaRecord, LoopsRecord, MotionRecord, QuadsRecord, QualityRecord, Record, RecordError, SweepRecord,
-    TuneRecord,
-};
+use straightline_study::record::Record;
+use straightline_table::Table;
 
 pub use quality::GEOMETRIC;
 
@@ -54,7 +52,8 @@ pub fn filled(document: &str, records: &Path) -> Result<String, String> {
             .split_once(" of ")
             .ok_or_else(|| format!("`{line}` names no record: write `<!-- table NAME of FILE -->`"))?;
         let files: Vec<_> = files.split(' ').map(|file| records.join(file)).collect();
-        out += &table(name, &files.iter().map(|file| file.as_path()).collect::<Vec<_>>())?;
+        let files: Vec<&Path> = files.iter().map(|file| file.as_path()).collect();
+        out += &table(name, &files)?.to_markdown();
         if !lines.any(|line| line == "<!-- end -->") {
             return Err(format!("the table `{name}` has no `<!-- end -->`"));
         }
@@ -63,86 +62,70 @@ pub fn filled(document: &str, records: &Path) -> Result<String, String> {
     Ok(out)
 }
 
-fn table(name: &str, files: &[&Path]) -> Result<String, String> {
-    let Some(first) = files.first() else {
-        return Err(format!("the table `{name}` has no record"));
-    };
-    let why = |error: RecordError| error.to_string();
+fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
     match name {
-        "frame" => Ok(frame::methods(&FrameRecord::read(first).map_err(why)?)),
-        "speed" => Ok(loops::in_short(&LoopsRecord::read(first).map_err(why)?)),
-        "loops" => Ok(loops::in_full(&LoopsRecord::read(first).map_err(why)?)),
-        "agreement" => {
-            let again = files
-                .get(1)
-                .ok_or_else(|| format!("the table `{name}` needs two records"))?;
-            loops::agreement(
-                &LoopsRecord::read(first).map_err(why)?,
-                &LoopsRecord::read(again).map_err(why)?,
-            )
-        }
-        "pictures" => Ok(quality::pictures(&QualityRecord::read(first).map_err(why)?)),
-        "resolves" => Ok(quality::resolves(&QualityRecord::read(first).map_err(why)?)),
-        "radii" => Ok(quality::radii(&QualityRecord::read(first).map_err(why)?)),
-        "samplings" => Ok(quality::samplings(&QualityRecord::read(first).map_err(why)?)),
-        "quality" => Ok(quality::in_short(&QualityRecord::read(first).map_err(why)?)),
-        "methods" => Ok(quality::methods(&QualityRecord::read(first).map_err(why)?)),
-        "scenes" => Ok(quality::scenes(&QualityRecord::read(first).map_err(why)?)),
-        "planes" => Ok(planes::scenes(&QualityRecord::read(first).map_err(why)?)),
-        "even" => Ok(planes::even(&QualityRecord::read(first).map_err(why)?)),
-        "presets" => presets::presets(&QualityRecord::read(first).map_err(why)?),
-        "guide" => Ok(presets::scenes(&QualityRecord::read(first).map_err(why)?)),
-        "guide-goals" => presets::goals(files),
-        "demodulated" => Ok(quality::demodulated(&QualityRecord::read(first).map_err(why)?)),
-        "motion" => Ok(motion::methods(&MotionRecord::read(first).map_err(why)?)),
-        "gaps" => Ok(quality::gaps(&QualityRecord::read(first).map_err(why)?)),
+        "frame" => Ok(frame::methods(&read(files, 0)?)),
+        "speed" => Ok(loops::in_short(&read(files, 0)?)),
+        "loops" => Ok(loops::in_full(&read(files, 0)?)),
+        "agreement" => loops::agreement(&read(files, 0)?, &read(files, 1)?),
+        "pictures" => Ok(quality::pictures(&read(files, 0)?)),
+        "resolves" => Ok(quality::resolves(&read(files, 0)?)),
+        "radii" => Ok(quality::radii(&read(files, 0)?)),
+        "samplings" => Ok(quality::samplings(&read(files, 0)?)),
+        "quality" => Ok(quality::in_short(&read(files, 0)?)),
+        "methods" => Ok(quality::methods(&read(files, 0)?)),
+        "scenes" => Ok(quality::scenes(&read(files, 0)?)),
+        "planes" => Ok(planes::scenes(&read(files, 0)?)),
+        "even" => Ok(planes::even(&read(files, 0)?)),
+        "presets" => presets::presets(&read(files, 0)?),
+        "guide" => Ok(presets::scenes(&read(files, 0)?)),
+        "guide-goals" => presets::goals(&read(files, 0)?),
+        "demodulated" => Ok(quality::demodulated(&read(files, 0)?)),
+        "motion" => Ok(motion::methods(&read(files, 0)?)),
+        "gaps" => Ok(quality::gaps(&read(files, 0)?)),
         "hard" => hard::kernels(files),
-        "rivals" => isa::rivals(&IsaRecord::read(first).map_err(why)?),
-        "gathers" => gathers::gathers(&IsaRecord::read(first).map_err(why)?),
-        "gathers-times" => {
-            let records = files.iter().map(|file| LoopsRecord::read(file).map_err(why));
-            gathers::times(&records.collect::<Result<Vec<_>, _>>()?)
-        }
-        "tiles" => tiles::cycles(&IsaRecord::read(first).map_err(why)?),
-        "tiles-times" => Ok(tiles::times(&LoopsRecord::read(first).map_err(why)?)),
-        "isa" => isa::cycles(&IsaRecord::read(first).map_err(why)?),
-        "fast" => {
-            let times = files
-                .get(1)
-                .ok_or_else(|| format!("the table `{name}` needs two records"))?;
-            fast::mathematics(
-                &IsaRecord::read(first).map_err(why)?,
-                &LoopsRecord::read(times).map_err(why)?,
-            )
-        }
+        "rivals" => Ok(isa::rivals(&read(files, 0)?)),
+        "gathers" => Ok(gathers::gathers(&read(files, 0)?)),
+        "gathers-times" => gathers::times(&read_all(files)?),
+        "tiles" => Ok(tiles::cycles(&read(files, 0)?)),
+        "tiles-times" => Ok(tiles::times(&read(files, 0)?)),
+        "isa" => Ok(isa::cycles(&read(files, 0)?)),
+        "fast" => Ok(fast::mathematics(&read(files, 0)?, &read(files, 1)?)),
         "goals" => goals::table(files),
-        "reached" => reached::table(files),
-        "alive" => alive::registers(&IsaRecord::read(first).map_err(why)?),
-        "rank" => {
-            let times: Result<Vec<_>, _> = files[1..].iter().map(|file| LoopsRecord::read(file)).collect();
-            rank::correlations(&IsaRecord::read(first).map_err(why)?, &times.map_err(why)?)
-        }
-        "tune" => {
-            let all: Result<Vec<_>, _> = files.iter().map(|file| TuneRecord::read(file)).collect();
-            Ok(tune::scenes(&all.map_err(why)?))
-        }
+        "reached" => reached::table(&read(files, 0)?, &read(files, 1)?),
+        "alive" => alive::registers(&read(files, 0)?),
+        "rank" => Ok(rank::correlations(&read(files, 0)?, &read_all(&files[1..])?)),
+        "tune" => Ok(tune::scenes(&read_all(files)?)),
         "budget" => budget::metrics(files),
         "table2" => budget::frames(files),
         "speedups" => budget::speedups(files),
-        "quads" => Ok(quads::ways(&QuadsRecord::read(first).map_err(why)?)),
-        "encode" => encode::ways(first),
-        "crates" => crates::needs(first),
-        "sweep" => sweep::factors(&SweepRecord::read(first).map_err(why)?),
+        "quads" => Ok(quads::ways(&read(files, 0)?)),
+        "encode" => encode::ways(files),
+        "crates" => crates::needs(files),
+        "sweep" => sweep::factors(&read(files, 0)?),
         _ => Err(format!(
             "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }
 
-fn markdown(head: &[&str], rows: Vec<Vec<String>>) -> String {
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    let mut text = line(&head.iter().map(|h| (*h).to_owned()).collect::<Vec<_>>());
-    text += &format!("| --- |{}\n", " --: |".repeat(head.len() - 1));
-    rows.iter().for_each(|row| text += &line(row));
-    text
+/// Reads the record of the file with an index.
+fn read<R: Record>(files: &[&Path], index: usize) -> Result<R, String> {
+    let file = files.get(index).ok_or(match index {
+        0 => "the table has no record",
+        1 => "the table needs two records",
+        _ => "the table needs more records",
+    })?;
+    R::read(file).map_err(|error| error.to_string())
+}
+
+fn read_all<R: Record>(files: &[&Path]) -> Result<Vec<R>, String> {
+    (0..files.len()).map(|index| read(files, index)).collect()
+}
+
+/// Reads a file of JSON.
+fn read_json(file: &Path) -> Result<serde_json::Value, String> {
+    let why = |error: &dyn std::fmt::Display| format!("`{}`: {error}", file.display());
+    let text = std::fs::read_to_string(file).map_err(|error| why(&error))?;
+    serde_json::from_str(&text).map_err(|error| why(&error))
 }

@@ -1,8 +1,8 @@
 //! Shading placed, searched for and done once more by planes, even regions kept.
 
-use super::markdown;
-use super::quality::{cell, found};
-use straightline_study::record::{QualityRecord, SceneErrors};
+use super::quality::{by_samples, cell, found};
+use straightline_study::record::QualityRecord;
+use straightline_table::Table;
 
 /// Methods with one number of samples, N, and the names of their columns.
 const METHODS: [(&str, &str); 6] = [
@@ -24,39 +24,20 @@ const EVEN: [(&str, &str); 5] = [
 ];
 
 /// Every scene: PSNR and FLIP, and the share of the pixels that are shaded once more.
-pub fn scenes(record: &QualityRecord) -> String {
-    let of = |scene: &SceneErrors, name: &str| match found(scene, name).and_then(|method| method.extra) {
-        Some(share) => format!("{}, {:.2} %", cell(scene, name), 100.0 * share),
-        None => cell(scene, name),
-    };
-    table(record, &METHODS, of)
-}
-
-/// Every scene: PSNR of even regions, and of the whole picture, above that of no antialiasing.
-pub fn even(record: &QualityRecord) -> String {
-    let of = |scene: &SceneErrors, name: &str| {
-        let (own, none) = (found(scene, name)?, found(scene, "1x")?);
-        let even = own.psnr_flat? - none.psnr_flat?;
-        Some(format!("{even:+.1}, {:+.1}", own.psnr - none.psnr))
-    };
-    table(record, &EVEN, |scene, name| {
-        of(scene, name).unwrap_or_else(|| "–".to_owned())
+pub fn scenes(record: &QualityRecord) -> Table {
+    by_samples(record, METHODS, |scene, name| {
+        let extra = found(scene, name)?
+            .extra
+            .map(|share| format!(", {:.2} %", 100.0 * share));
+        Some(cell(scene, name)? + &extra.unwrap_or_default())
     })
 }
 
-fn table(record: &QualityRecord, methods: &[(&str, &str)], of: impl Fn(&SceneErrors, &str) -> String) -> String {
-    let head: Vec<&str> = ["scene", "samples"]
-        .into_iter()
-        .chain(methods.iter().map(|(_, title)| *title))
-        .collect();
-    let rows = record.scenes.iter().flat_map(|scene| {
-        ["4", "16"].map(|samples| {
-            let cells = methods.iter().map(|(name, _)| of(scene, &name.replace('N', samples)));
-            [scene.scene.clone(), samples.to_owned()]
-                .into_iter()
-                .chain(cells)
-                .collect()
-        })
-    });
-    markdown(&head, rows.collect())
+/// Every scene: PSNR of even regions, and of the whole picture, above that of no antialiasing.
+pub fn even(record: &QualityRecord) -> Table {
+    by_samples(record, EVEN, |scene, name| {
+        let (own, none) = (found(scene, name)?, found(scene, "1x")?);
+        let even = own.psnr_flat? - none.psnr_flat?;
+        Some(format!("{even:+.1}, {:+.1}", own.psnr - none.psnr))
+    })
 }

@@ -1,9 +1,9 @@
 //! Presets of SRAA against supersampling at their samples, over all scenes of a record.
 
-use super::markdown;
-use super::quality::{cell, found};
-use std::path::Path;
-use straightline_study::record::{MethodErrors, QualityRecord, Record, SceneErrors};
+use super::goals::{Goal, goals_table};
+use super::quality::{by_samples, cell, found};
+use straightline_study::record::{MethodErrors, QualityRecord, SceneErrors};
+use straightline_table::{Cell, Table};
 
 /// Each preset with what a renderer must have for it.
 const PRESETS: [(&str, &str); 5] = [
@@ -26,95 +26,83 @@ fn method(preset: &str, samples: &str) -> String {
 }
 
 /// Every preset: what it needs, its distance below supersampling, its time and its memory.
-pub fn presets(record: &QualityRecord) -> Result<String, String> {
-    let head = [
-        "`preset`",
-        "what is rendered",
-        "below 4×, dB: mean (worst)",
-        "below 16×",
-        "ms, 4 samples",
-        "16",
-        "MB, 4 samples",
-        "16",
-    ];
+pub fn presets(record: &QualityRecord) -> Result<Table, String> {
+    let below = PRESETS.map(|(preset, _)| ["4", "16"].map(|samples| below(record, preset, samples)));
+    let mean_of = |preset: &str, samples: &str, figure: fn(&MethodErrors) -> Option<f64>| {
+        let of = |scene| figure(found(scene, &method(preset, samples))?);
+        let all: Vec<f64> = record.scenes.iter().filter_map(of).collect();
+        Cell::fixed(mean(&all), 1)
+    };
     let mut rows = Vec::new();
-    for (preset, needs) in PRESETS {
-        let mut row = vec![format!("`{preset}`"), needs.to_owned()];
-        for samples in ["4", "16"] {
-            let below = below(record, preset, samples)?;
-            row.push(format!("{:.2} ({:.2})", mean(&below), most(&below)));
-        }
-        for figure in [
-            |m: &MethodErrors| m.time.map(|time| time.median_ms),
-            |m: &MethodErrors| Some(m.bytes as f64 / 1e6),
-        ] {
-            for samples in ["4", "16"] {
-                let of = |scene| figure(found(scene, &method(preset, samples))?);
-                let all: Vec<f64> = record.scenes.iter().filter_map(of).collect();
-                row.push(format!("{:.1}", mean(&all)));
-            }
-        }
-        rows.push(row);
+    for ((preset, needs), [four, sixteen]) in PRESETS.into_iter().zip(below) {
+        let below = [four?, sixteen?].map(|below| format!("{:.2} ({:.2})", mean(&below), most(&below)));
+        rows.push((preset, needs, below));
     }
-    Ok(markdown(&head, rows))
+    Ok(Table::of(&rows)
+        .column("`preset`", |(preset, ..)| format!("`{preset}`"))
+        .column("what is rendered", |(_, needs, _)| *needs)
+        .column("below 4×, dB: mean (worst)", |(.., below)| &below[0])
+        .column("below 16×", |(.., below)| &below[1])
+        .column("ms, 4 samples", |(preset, ..)| {
+            mean_of(preset, "4", MethodErrors::median_ms)
+        })
+        .column("16", |(preset, ..)| mean_of(preset, "16", MethodErrors::median_ms))
+        .column("MB, 4 samples", |(preset, ..)| {
+            mean_of(preset, "4", MethodErrors::megabytes)
+        })
+        .column("16", |(preset, ..)| mean_of(preset, "16", MethodErrors::megabytes))
+        .finish())
 }
 
 /// Every scene: PSNR and FLIP of each preset beside supersampling.
-pub fn scenes(record: &QualityRecord) -> String {
-    let head: Vec<&str> = ["scene", "samples"]
-        .into_iter()
-        .chain(PRESETS.map(|(preset, _)| preset))
-        .chain(["unscaled guide", "supersampling"])
-        .collect();
-    let rows = record.scenes.iter().flat_map(|scene| {
-        ["4", "16"].map(|samples| {
-            let mut row = vec![scene.scene.clone(), samples.to_owned()];
-            let methods = PRESETS.map(|(preset, _)| method(preset, samples));
-            row.extend(methods.iter().map(|name| cell(scene, name)));
-            row.push(cell(scene, &method("guided, unscaled", samples)));
-            row.push(cell(scene, &format!("{samples}x")));
-            row
-        })
-    });
-    markdown(&head, rows.collect())
+pub fn scenes(record: &QualityRecord) -> Table {
+    const METHODS: [(&str, &str); 7] = [
+        ("SRAA N", "paper"),
+        ("SRAA N, fast", "fast"),
+        ("SRAA N, edges", "edges"),
+        ("SRAA N, full", "full"),
+        ("SRAA N, guided", "guided"),
+        ("SRAA N, guided, unscaled", "unscaled guide"),
+        ("Nx", "supersampling"),
+    ];
+    by_samples(record, METHODS, cell)
 }
 
 /// Goals of the guide and of the presets, and what the record says.
-pub fn goals(files: &[&Path]) -> Result<String, String> {
-    let [file] = files else {
-        return Err("the table `guide-goals` needs one record".to_owned());
+pub fn goals(record: &QualityRecord) -> Result<Table, String> {
+    let goal = |what: String, goal: String, now: String, is_met: bool| Goal {
+        what,
+        was: "",
+        goal,
+        now,
+        is_met,
     };
-    let record = QualityRecord::read(file).map_err(|error| error.to_string())?;
     let mut rows = Vec::new();
     for (samples, of_mean, of_worst) in [("4", 0.05, 0.2), ("16", 0.2, 0.6)] {
-        for (what, preset) in [("guided", "guided"), ("guided, unscaled", "guided, unscaled")] {
-            let below = below(&record, preset, samples)?;
-            rows.push(vec![
-                format!("{what}, {samples} samples below {samples}×: mean; worst, dB"),
+        for preset in ["guided", "guided, unscaled"] {
+            let below = below(record, preset, samples)?;
+            rows.push(goal(
+                format!("{preset}, {samples} samples below {samples}×: mean; worst, dB"),
                 format!("at most {of_mean}; {of_worst}"),
-                format!("**{:.2}; {:.2}**", mean(&below), most(&below)),
-                yes(mean(&below) <= of_mean && most(&below) <= of_worst),
-            ]);
+                format!("{:.2}; {:.2}", mean(&below), most(&below)),
+                mean(&below) <= of_mean && most(&below) <= of_worst,
+            ));
         }
     }
     for preset in ["edges", "full"] {
         for samples in ["4", "16"] {
-            let (paper, own) = (below(&record, "paper", samples)?, below(&record, preset, samples)?);
+            let (paper, own) = (below(record, "paper", samples)?, below(record, preset, samples)?);
             let gains: Vec<f64> = paper.iter().zip(&own).map(|(paper, own)| paper - own).collect();
             let least = gains.iter().copied().fold(f64::INFINITY, f64::min);
-            rows.push(vec![
+            rows.push(goal(
                 format!("`{preset}`, {samples} samples, above `paper`: worst scene, dB"),
                 "at least 0".to_owned(),
-                format!("**{least:+.2}**"),
-                yes(least >= 0.0),
-            ]);
+                format!("{least:+.2}"),
+                least >= 0.0,
+            ));
         }
     }
-    Ok(markdown(&["what", "goal", "now", "met"], rows))
-}
-
-fn yes(is_met: bool) -> String {
-    if is_met { "yes" } else { "no" }.to_owned()
+    Ok(goals_table(rows))
 }
 
 /// Distance of a preset below supersampling with as many samples, scene by scene.

@@ -1,7 +1,7 @@
 //! Methods of antialiasing against references.
 
-use super::markdown;
 use straightline_study::record::{MethodErrors, QualityRecord, SceneErrors};
+use straightline_table::{Cell, Table};
 
 /// Scenes whose errors are edges of geometry, for which SRAA is made.
 pub const GEOMETRIC: [&str; 8] = [
@@ -36,33 +36,21 @@ fn timed(record: &QualityRecord) -> String {
 }
 
 /// The main methods: means over the geometric scenes and over the others.
-pub fn in_short(record: &QualityRecord) -> String {
-    let timed = timed(record);
-    let head = [
-        "method",
-        "PSNR, edges of geometry",
-        "FLIP",
-        "gap closed",
-        "PSNR, other scenes",
-        "FLIP",
-        &timed,
-        "MB",
-    ];
-    let row = |name: &&str| {
-        let (edges, others) = (Scenes::of(record, name, true), Scenes::of(record, name, false));
-        let all = edges.and(&others);
-        vec![
-            (*name).to_owned(),
-            edges.mean(2, " dB", |m| Some(m.psnr)),
-            edges.mean(4, "", |m| Some(m.flip)),
-            edges.mean(0, " %", |m| Some(100.0 * m.gap_closed?)),
-            others.mean(2, " dB", |m| Some(m.psnr)),
-            others.mean(4, "", |m| Some(m.flip)),
-            all.mean(1, "", |m| Some(m.time?.median_ms)),
-            all.mean(1, "", |m| Some(m.bytes as f64 / 1e6)),
-        ]
-    };
-    markdown(&head, MAIN.iter().map(row).collect())
+pub fn in_short(record: &QualityRecord) -> Table {
+    Table::of(MAIN.map(|name| Scenes::split(record, name)))
+        .column("method", |row| row.name)
+        .column("PSNR, edges of geometry", |row| {
+            row.edges.mean(2, " dB", |m| Some(m.psnr))
+        })
+        .column("FLIP", |row| row.edges.mean(4, "", |m| Some(m.flip)))
+        .column("gap closed", |row| {
+            row.edges.mean(0, " %", |m| Some(100.0 * m.gap_closed?))
+        })
+        .column("PSNR, other scenes", |row| row.others.mean(2, " dB", |m| Some(m.psnr)))
+        .column("FLIP", |row| row.others.mean(4, "", |m| Some(m.flip)))
+        .column(timed(record), |row| row.all.mean(1, "", MethodErrors::median_ms))
+        .column("MB", |row| row.all.mean(1, "", MethodErrors::megabytes))
+        .finish()
 }
 
 /// Errors of a method on a scene.
@@ -71,40 +59,27 @@ pub(super) fn found<'a>(scene: &'a SceneErrors, name: &str) -> Option<&'a Method
 }
 
 /// Filters of the picture beside SRAA, scene by scene: PSNR, and the times of MLAA and SRAA 4.
-pub fn pictures(record: &QualityRecord) -> String {
-    const METHODS: [&str; 6] = ["1x", "FXAA", "SMAA", "MLAA", "SRAA 4", "SRAA 4 and MLAA"];
-    let head = [
-        "scene",
-        "1x",
-        "FXAA",
-        "SMAA",
-        "MLAA",
-        "SRAA 4",
-        "SRAA 4 and MLAA",
-        "ms, MLAA",
-        "ms, SRAA 4",
-    ];
-    let row = |scene: &SceneErrors| {
-        let psnr = |name: &str| found(scene, name).map_or("–".to_owned(), |m| format!("{:.2}", m.psnr));
-        let time = |name: &str| {
-            found(scene, name)
-                .and_then(|m| m.time)
-                .map_or("–".to_owned(), |t| format!("{:.1}", t.median_ms))
-        };
-        let psnrs = METHODS.map(psnr).into_iter();
-        std::iter::once(scene.scene.clone())
-            .chain(psnrs)
-            .chain(["MLAA", "SRAA 4"].map(time))
-            .collect()
-    };
-    markdown(&head, record.scenes.iter().map(row).collect())
+pub fn pictures(record: &QualityRecord) -> Table {
+    Table::of(&record.scenes)
+        .column("scene", |scene| &scene.scene)
+        .columns(
+            ["1x", "FXAA", "SMAA", "MLAA", "SRAA 4", "SRAA 4 and MLAA"],
+            |name| *name,
+            |scene, name| found(scene, name).map(|m| Cell::fixed(m.psnr, 2)),
+        )
+        .columns(
+            ["MLAA", "SRAA 4"],
+            |name| format!("ms, {name}"),
+            |scene, name| found(scene, name)?.median_ms().map(|ms| Cell::fixed(ms, 1)),
+        )
+        .finish()
 }
 
 /// SRAA with taps up to one pixel away, and up to more, scene by scene: PSNR, and the error that one pixel in a thousand exceeds.
-pub fn radii(record: &QualityRecord) -> String {
+pub fn radii(record: &QualityRecord) -> Table {
     errors(
         record,
-        [
+        &[
             "SRAA 4",
             "SRAA 4, radius 1.5",
             "SRAA 4, radius 2",
@@ -115,10 +90,10 @@ pub fn radii(record: &QualityRecord) -> String {
 }
 
 /// Filters of SRAA's samples, scene by scene: PSNR, and the error that one pixel in a thousand exceeds.
-pub fn resolves(record: &QualityRecord) -> String {
+pub fn resolves(record: &QualityRecord) -> Table {
     errors(
         record,
-        [
+        &[
             "SRAA 4",
             "SRAA 4, tent 0.75",
             "SRAA 4, tent",
@@ -130,37 +105,34 @@ pub fn resolves(record: &QualityRecord) -> String {
     )
 }
 
-fn errors<const N: usize>(record: &QualityRecord, methods: [&str; N]) -> String {
-    let row = |scene: &SceneErrors| {
-        let cell = |name: &str| {
-            let errors = found(scene, name).and_then(|m| Some((m.psnr, m.worst?)));
-            errors.map_or("–".to_owned(), |(psnr, worst)| format!("{psnr:.2}, {worst:.3}"))
-        };
-        std::iter::once(scene.scene.clone()).chain(methods.map(cell)).collect()
-    };
+/// A row for each scene, and one of median times.
+fn errors(record: &QualityRecord, methods: &[&str]) -> Table {
     let median = |name: &str| {
-        let times = record
-            .scenes
-            .iter()
-            .filter_map(|scene| Some(found(scene, name)?.time?.median_ms));
-        let mut times: Vec<f64> = times.collect();
+        let times = record.scenes.iter();
+        let mut times: Vec<f64> = times.filter_map(|scene| found(scene, name)?.median_ms()).collect();
         times.sort_by(f64::total_cmp);
-        times
-            .get(times.len() / 2)
-            .map_or("–".to_owned(), |time| format!("{time:.1}"))
+        times.get(times.len() / 2).map(|time| format!("{time:.1}"))
     };
-    let mut rows: Vec<Vec<String>> = record.scenes.iter().map(row).collect();
-    rows.push(
-        std::iter::once("ms, median".to_owned())
-            .chain(methods.map(median))
-            .collect(),
-    );
-    let head: Vec<&str> = std::iter::once("scene").chain(methods).collect();
-    markdown(&head, rows)
+    Table::of(record.scenes.iter().map(Some).chain([None]))
+        .column("scene", |scene| {
+            scene.map_or("ms, median", |scene| scene.scene.as_str())
+        })
+        .columns(
+            methods,
+            |name| **name,
+            |scene, name| match scene {
+                Some(scene) => {
+                    let method = found(scene, name)?;
+                    Some(format!("{:.2}, {:.3}", method.psnr, method.worst?))
+                }
+                None => median(name),
+            },
+        )
+        .finish()
 }
 
 /// Methods that shade or cover more samples, beside SRAA, scene by scene: PSNR, and the cost of the filter or the resolve.
-pub fn samplings(record: &QualityRecord) -> String {
+pub fn samplings(record: &QualityRecord) -> Table {
     const METHODS: [&str; 11] = [
         "1x",
         "SRAA 4",
@@ -174,173 +146,159 @@ pub fn samplings(record: &QualityRecord) -> String {
         "AGAA 16",
         "16x",
     ];
-    let row = |scene: &SceneErrors| {
-        let cell = |name: &str| {
-            let Some(errors) = found(scene, name) else {
-                return "–".to_owned();
-            };
-            let time = errors.time.map(|time| format!(", {:.1} ms", time.median_ms));
-            format!("{:.2}{}", errors.psnr, time.unwrap_or_default())
-        };
-        std::iter::once(scene.scene.clone()).chain(METHODS.map(cell)).collect()
-    };
-    let head: Vec<&str> = std::iter::once("scene").chain(METHODS).collect();
-    markdown(&head, record.scenes.iter().map(row).collect())
+    Table::of(&record.scenes)
+        .column("scene", |scene| &scene.scene)
+        .columns(
+            METHODS,
+            |name| *name,
+            |scene, name| {
+                let errors = found(scene, name)?;
+                let time = errors.median_ms().map(|ms| format!(", {ms:.1} ms"));
+                Some(format!("{:.2}{}", errors.psnr, time.unwrap_or_default()))
+            },
+        )
+        .finish()
 }
 
 /// Every method: the same means, over kinds of pixels too, and over the pan.
-pub fn methods(record: &QualityRecord) -> String {
-    let timed = timed(record);
-    let head = [
-        "method",
-        "PSNR, edges of geometry",
-        "SSIM",
-        "FLIP",
-        "gap closed",
-        "pan",
-        "PSNR, other scenes",
-        "FLIP",
-        "at edges of geometry",
-        "at edges of shading",
-        "flat",
-        &timed,
-        "MB",
-    ];
+pub fn methods(record: &QualityRecord) -> Table {
     let mut names: Vec<&str> = Vec::new();
     for method in record.scenes.iter().flat_map(|scene| &scene.methods) {
         if !names.contains(&method.method.as_str()) {
             names.push(&method.method);
         }
     }
-    let row = |name: &&str| {
-        let (edges, others) = (Scenes::of(record, name, true), Scenes::of(record, name, false));
-        let all = edges.and(&others);
-        vec![
-            (*name).to_owned(),
-            edges.mean(2, "", |m| Some(m.psnr)),
-            edges.mean(4, "", |m| Some(m.ssim)),
-            edges.mean(4, "", |m| Some(m.flip)),
-            edges.mean(0, " %", |m| Some(100.0 * m.gap_closed?)),
-            edges.mean(4, "", |m| m.temporal),
-            others.mean(2, "", |m| Some(m.psnr)),
-            others.mean(4, "", |m| Some(m.flip)),
-            all.mean(1, "", |m| m.psnr_geometry),
-            all.mean(1, "", |m| m.psnr_shading),
-            all.mean(1, "", |m| m.psnr_flat),
-            all.mean(1, "", |m| Some(m.time?.median_ms)),
-            all.mean(1, "", |m| Some(m.bytes as f64 / 1e6)),
-        ]
-    };
-    markdown(&head, names.iter().map(row).collect())
+    Table::of(names.into_iter().map(|name| Scenes::split(record, name)))
+        .column("method", |row| row.name)
+        .column("PSNR, edges of geometry", |row| row.edges.mean(2, "", |m| Some(m.psnr)))
+        .column("SSIM", |row| row.edges.mean(4, "", |m| Some(m.ssim)))
+        .column("FLIP", |row| row.edges.mean(4, "", |m| Some(m.flip)))
+        .column("gap closed", |row| {
+            row.edges.mean(0, " %", |m| Some(100.0 * m.gap_closed?))
+        })
+        .column("pan", |row| row.edges.mean(4, "", |m| m.temporal))
+        .column("PSNR, other scenes", |row| row.others.mean(2, "", |m| Some(m.psnr)))
+        .column("FLIP", |row| row.others.mean(4, "", |m| Some(m.flip)))
+        .column("at edges of geometry", |row| row.all.mean(1, "", |m| m.psnr_geometry))
+        .column("at edges of shading", |row| row.all.mean(1, "", |m| m.psnr_shading))
+        .column("flat", |row| row.all.mean(1, "", |m| m.psnr_flat))
+        .column(timed(record), |row| row.all.mean(1, "", MethodErrors::median_ms))
+        .column("MB", |row| row.all.mean(1, "", MethodErrors::megabytes))
+        .finish()
 }
 
-/// Methods on edges of paint and shadow: demodulated variants between SRAA and supersampling.
-const DEMODULATED: [&str; 7] = [
-    "SRAA N, relative depth",
-    "SRAA N, demodulated by albedo",
-    "SRAA N, demodulated",
-    "SRAA N, placed and searched",
-    "SRAA N, placed, searched and demodulated",
-    "SRAA N, placed, searched, demodulated and rest apart",
-    "Nx",
+/// Methods on edges of paint and shadow, with the names of their columns: demodulated variants between SRAA and supersampling.
+const DEMODULATED: [(&str, &str); 7] = [
+    ("SRAA N, relative depth", "SRAA"),
+    ("SRAA N, demodulated by albedo", "`albedo`"),
+    ("SRAA N, demodulated", "`albedo-shadow`"),
+    ("SRAA N, placed and searched", "placed, searched"),
+    ("SRAA N, placed, searched and demodulated", "and `albedo-shadow`"),
+    (
+        "SRAA N, placed, searched, demodulated and rest apart",
+        "and `rest=true`",
+    ),
+    ("Nx", "supersampling"),
 ];
 
 /// Every scene by the number of samples: PSNR and FLIP of what takes light apart.
-pub fn demodulated(record: &QualityRecord) -> String {
-    let head = [
-        "scene",
-        "samples",
-        "SRAA",
-        "`albedo`",
-        "`albedo-shadow`",
-        "placed, searched",
-        "and `albedo-shadow`",
-        "and `rest=true`",
-        "supersampling",
-    ];
-    let rows = record.scenes.iter().flat_map(|scene| {
-        ["4", "16"].map(|samples| {
-            let cells = DEMODULATED.map(|name| cell(scene, &name.replace('N', samples)));
-            [scene.scene.clone(), samples.to_owned()]
-                .into_iter()
-                .chain(cells)
-                .collect()
-        })
-    });
-    markdown(&head, rows.collect())
+pub fn demodulated(record: &QualityRecord) -> Table {
+    by_samples(record, DEMODULATED, cell)
+}
+
+/// Every scene with 4 and with 16 samples: a column for each method, whose name has N where its number of samples goes.
+pub(super) fn by_samples<'m, C: Into<Cell>>(
+    record: &QualityRecord,
+    methods: impl IntoIterator<Item = (&'m str, &'m str)>,
+    cell: impl Fn(&SceneErrors, &str) -> C,
+) -> Table {
+    let rows = record.scenes.iter();
+    Table::of(rows.flat_map(|scene| ["4", "16"].map(|samples| (scene, samples))))
+        .column("scene", |(scene, _)| &scene.scene)
+        .column("samples", |(_, samples)| *samples)
+        .columns(
+            methods,
+            |(_, title)| *title,
+            |(scene, samples), (name, _)| cell(scene, &name.replace('N', samples)),
+        )
+        .finish()
 }
 
 /// Every scene: PSNR and FLIP of the main methods.
-pub fn scenes(record: &QualityRecord) -> String {
-    of_scenes(record, &MAIN)
-}
-
-fn of_scenes(record: &QualityRecord, methods: &[&str]) -> String {
-    let mut head = vec!["scene"];
-    head.extend(methods);
-    let row = |scene: &SceneErrors| {
-        std::iter::once(scene.scene.clone())
-            .chain(methods.iter().map(|name| cell(scene, name)))
-            .collect()
-    };
-    markdown(&head, record.scenes.iter().map(row).collect())
+pub fn scenes(record: &QualityRecord) -> Table {
+    Table::of(&record.scenes)
+        .column("scene", |scene| &scene.scene)
+        .columns(MAIN, |name| *name, |scene, name| cell(scene, name))
+        .finish()
 }
 
 /// PSNR and FLIP of a method on a scene.
-pub(super) fn cell(scene: &SceneErrors, name: &str) -> String {
-    match found(scene, name) {
-        Some(method) => format!("{:.2}, {:.4}", method.psnr, method.flip),
-        None => "–".to_owned(),
-    }
+pub(super) fn cell(scene: &SceneErrors, name: &str) -> Option<String> {
+    let method = found(scene, name)?;
+    Some(format!("{:.2}, {:.4}", method.psnr, method.flip))
+}
+
+/// A method on the scenes for which SRAA is made, on the others, and on all.
+struct Split<'a> {
+    name: &'a str,
+    edges: Scenes<'a>,
+    others: Scenes<'a>,
+    all: Scenes<'a>,
 }
 
 /// Errors of a method on some scenes.
 struct Scenes<'a>(Vec<&'a MethodErrors>);
 
 impl<'a> Scenes<'a> {
-    fn of(record: &'a QualityRecord, name: &str, geometric: bool) -> Scenes<'a> {
-        let scenes = record.scenes.iter();
-        let own = scenes.filter(|s| GEOMETRIC.contains(&s.scene.as_str()) == geometric);
-        Scenes(own.filter_map(|s| found(s, name)).collect())
-    }
-
-    fn and(&self, others: &Scenes<'a>) -> Scenes<'a> {
-        Scenes(self.0.iter().chain(&others.0).copied().collect())
+    fn split(record: &'a QualityRecord, name: &'a str) -> Split<'a> {
+        let of = |is_shown: &dyn Fn(bool) -> bool| {
+            let scenes = record.scenes.iter();
+            let own = scenes.filter(|scene| is_shown(GEOMETRIC.contains(&scene.scene.as_str())));
+            Scenes(own.filter_map(|scene| found(scene, name)).collect())
+        };
+        Split {
+            name,
+            edges: of(&|geometric| geometric),
+            others: of(&|geometric| !geometric),
+            all: of(&|_| true),
+        }
     }
 
     /// The mean of a figure over the scenes that have it.
-    fn mean(&self, digits: usize, unit: &str, figure: impl Fn(&MethodErrors) -> Option<f64>) -> String {
+    fn mean(&self, digits: usize, unit: &str, figure: impl Fn(&MethodErrors) -> Option<f64>) -> Option<String> {
         let values: Vec<f64> = self.0.iter().filter_map(|method| figure(method)).collect();
-        match values.is_empty() {
-            true => "–".to_owned(),
-            false => format!("{:.digits$}{unit}", values.iter().sum::<f64>() / values.len() as f64),
-        }
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        (!values.is_empty()).then(|| format!("{mean:.digits$}{unit}"))
     }
 }
 
 /// Distance of SRAA from supersampling on every scene that has gaps, with its parts.
-pub fn gaps(record: &QualityRecord) -> String {
-    let mut head = vec!["scene".to_owned()];
-    let first = record.scenes.iter().find(|scene| !scene.gaps.is_empty());
-    for gap in first.map(|scene| scene.gaps.as_slice()).unwrap_or_default() {
-        head.push(format!("{} − {}", gap.method, gap.bound));
-        head.extend(["unseen surfaces", "borrowed colours"].map(str::to_owned));
-    }
-    let rows = record
-        .scenes
-        .iter()
-        .filter(|scene| !scene.gaps.is_empty())
-        .map(|scene| {
-            let figures = scene.gaps.iter().flat_map(|gap| {
+pub fn gaps(record: &QualityRecord) -> Table {
+    let rows: Vec<&SceneErrors> = record.scenes.iter().filter(|scene| !scene.gaps.is_empty()).collect();
+    let first = rows.first().map(|scene| scene.gaps.as_slice()).unwrap_or_default();
+    let parts = first.iter().enumerate().flat_map(|(k, gap)| {
+        let whole = format!("{} − {}", gap.method, gap.bound);
+        let titles = [whole, "unseen surfaces".to_owned(), "borrowed colours".to_owned()];
+        titles
+            .into_iter()
+            .enumerate()
+            .map(move |(part, title)| (k, part, title))
+    });
+    let parts: Vec<_> = parts.collect();
+    Table::of(rows)
+        .column("scene", |scene| &scene.scene)
+        .columns(
+            parts,
+            |(.., title)| title.clone(),
+            |scene, (k, part, _)| {
+                let gap = scene.gaps.get(*k)?;
                 let parts = [
                     gap.psnr - gap.bound_psnr,
                     gap.ideal_psnr - gap.bound_psnr,
                     gap.psnr - gap.ideal_psnr,
                 ];
-                parts.map(|part| format!("{part:+.2}"))
-            });
-            std::iter::once(scene.scene.clone()).chain(figures).collect()
-        });
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    markdown(&head, rows.collect())
+                Some(format!("{:+.2}", parts[*part]))
+            },
+        )
+        .finish()
 }

@@ -1,23 +1,22 @@
 //! Correlation between a compiler's cycles and measured times of shaders.
 
-use super::markdown;
-use straightline_isa::Family;
-use straightline_study::record::{FormKind, IsaForm, IsaRecord, KernelForms, LoopsRecord, SpirvPath};
+use straightline_study::record::{FormKind, IsaRecord, KernelForms, LoopsRecord, SpirvPath};
+use straightline_table::Table;
 
-/// A form that was timed, and the same as a compiler was asked about it.
-const SAME: [(FormKind, IsaForm, SpirvPath); 9] = [
-    (FormKind::Looped, IsaForm::Looped, SpirvPath::NagaBounded),
-    (FormKind::LoopedUnchecked, IsaForm::Looped, SpirvPath::Naga),
-    (FormKind::LoopedByHand, IsaForm::ByHand, SpirvPath::NagaBounded),
-    (FormKind::LoopedByHandUnchecked, IsaForm::ByHand, SpirvPath::Naga),
-    (FormKind::Full, IsaForm::Unrolled, SpirvPath::Naga),
-    (FormKind::FullBlock, IsaForm::Block, SpirvPath::Naga),
-    (FormKind::FullTile, IsaForm::Tile, SpirvPath::Naga),
-    (FormKind::FullGather, IsaForm::Gather, SpirvPath::Naga),
-    (FormKind::FullFast, IsaForm::Fast, SpirvPath::Naga),
+/// Forms that are compared: as they were timed, and as a compiler was asked about them.
+const SAME: [(FormKind, FormKind, SpirvPath); 9] = [
+    (FormKind::Looped, FormKind::Looped, SpirvPath::NagaBounded),
+    (FormKind::LoopedUnchecked, FormKind::Looped, SpirvPath::Naga),
+    (FormKind::LoopedByHand, FormKind::LoopedByHand, SpirvPath::NagaBounded),
+    (FormKind::LoopedByHandUnchecked, FormKind::LoopedByHand, SpirvPath::Naga),
+    (FormKind::Full, FormKind::Full, SpirvPath::Naga),
+    (FormKind::FullBlock, FormKind::FullBlock, SpirvPath::Naga),
+    (FormKind::FullTile, FormKind::FullTile, SpirvPath::Naga),
+    (FormKind::FullGather, FormKind::FullGather, SpirvPath::Naga),
+    (FormKind::FullFast, FormKind::FullFast, SpirvPath::Naga),
 ];
 
-/// Pixels of the block that cycles of [`IsaForm::Block`] are of.
+/// Pixels of the block that cycles of [`FormKind::FullBlock`] are of.
 const BLOCK: f64 = 4.0;
 
 /// A shader with its cycles a pixel and its time.
@@ -31,23 +30,13 @@ struct Shader {
 }
 
 /// Rank correlations of cycles with the times of each record, of all shaders and of some.
-pub fn correlations(cycles: &IsaRecord, times: &[LoopsRecord]) -> Result<String, String> {
-    let Some(family) = cycles.devices.keys().next() else {
-        return Err("the record has no family".to_owned());
-    };
-    let head = [
-        "driver",
-        "shaders",
-        "number",
-        "rank correlation",
-        "farthest from their rank",
-    ];
+pub fn correlations(cycles: &IsaRecord, times: &[LoopsRecord]) -> Table {
     let mut rows = Vec::new();
     for record in times {
         let shaders: Vec<Shader> = record
             .kernels
             .iter()
-            .flat_map(|kernel| SAME.iter().filter_map(|same| shader(cycles, *family, kernel, same)))
+            .flat_map(|kernel| SAME.iter().filter_map(|same| shader(cycles, kernel, same)))
             .collect();
         let is_line = |s: &&Shader| {
             matches!(
@@ -70,30 +59,30 @@ pub fn correlations(cycles: &IsaRecord, times: &[LoopsRecord]) -> Result<String,
         for (name, shaders) in some {
             let cycles = ranks(&shaders.iter().map(|s| s.cycles).collect::<Vec<_>>());
             let times = ranks(&shaders.iter().map(|s| s.ms).collect::<Vec<_>>());
-            rows.push(vec![
-                driver(record),
-                name.to_owned(),
-                shaders.len().to_string(),
-                format!("{:.2}", pearson(&cycles, &times)),
-                farthest(&shaders, &cycles, &times),
-            ]);
+            let far = farthest(&shaders, &cycles, &times);
+            rows.push((driver(record), name, shaders.len(), pearson(&cycles, &times), far));
         }
     }
-    Ok(markdown(&head, rows))
+    Table::of(&rows)
+        .column("driver", |row| &row.0)
+        .column("shaders", |row| row.1)
+        .column("number", |row| row.2)
+        .fixed("rank correlation", 2, |row| row.3)
+        .column("farthest from their rank", |row| &row.4)
+        .finish()
 }
 
 fn shader(
     cycles: &IsaRecord,
-    family: Family,
     kernel: &KernelForms,
-    (kind, form, path): &(FormKind, IsaForm, SpirvPath),
+    (kind, form, path): &(FormKind, FormKind, SpirvPath),
 ) -> Option<Shader> {
     let timed = kernel.form(*kind)?;
     let asked = cycles.shaders.iter().find(|asked| {
         (&asked.kernel, &asked.options, &asked.form, &asked.path) == (&kernel.kernel, &kernel.options, form, path)
     })?;
-    let figures = asked.figures.get(&family)?;
-    let pixels = if *form == IsaForm::Block { BLOCK } else { 1.0 };
+    let figures = asked.figures.values().next()?;
+    let pixels = if *form == FormKind::FullBlock { BLOCK } else { 1.0 };
     Some(Shader {
         kernel: kernel.kernel.clone(),
         kind: *kind,

@@ -1,21 +1,16 @@
 //! Goals for accuracy, and their state in the records.
 
-use super::markdown;
+use super::goals::{Goal, goals_table};
 use super::quality::GEOMETRIC;
-use std::path::Path;
-use straightline_study::record::{MethodErrors, QualityRecord, Record, SceneErrors};
+use straightline_study::record::{MethodErrors, QualityRecord, SceneErrors};
+use straightline_table::Table;
 
 /// Each goal with what it comes to: of the record of what is placed by planes, and that of paint and shadow.
-pub fn table(files: &[&Path]) -> Result<String, String> {
-    let [planes, paint] = files else {
-        return Err("the table `reached` needs two records".to_owned());
-    };
-    let read = |file: &Path| QualityRecord::read(file).map_err(|error| error.to_string());
-    let (planes, paint) = (read(planes)?, read(paint)?);
+pub fn table(planes: &QualityRecord, paint: &QualityRecord) -> Result<Table, String> {
     let kept = |samples: &str| format!("SRAA {samples}, placed, searched and kept even");
     let mut rows = Vec::new();
     for (samples, mean, worst) in [("4", 0.5, 1.5), ("16", 2.0, 4.0)] {
-        let below = below(&planes, &kept(samples), samples)?;
+        let below = below(planes, &kept(samples), samples)?;
         rows.push(row(
             &format!("SRAA {samples} below {samples}×, same shading rate: mean; worst, dB"),
             &format!("at most {mean}; {worst}"),
@@ -29,7 +24,7 @@ pub fn table(files: &[&Path]) -> Result<String, String> {
         for scene in &planes.scenes {
             most = most.max(named(scene, &method)?.extra.unwrap_or(1.0));
         }
-        let below = below(&planes, &method, samples)?.0;
+        let below = below(planes, &method, samples)?.0;
         rows.push(row(
             &format!(
                 "SRAA {samples} below {samples}× with up to 2 % of the pixels shaded once more: mean, dB; most, %"
@@ -86,12 +81,17 @@ pub fn table(files: &[&Path]) -> Result<String, String> {
             worst >= -0.3,
         ));
     }
-    Ok(markdown(&["what", "goal", "now", "met"], rows))
+    Ok(goals_table(rows))
 }
 
-fn row(what: &str, goal: &str, now: &str, is_met: bool) -> Vec<String> {
-    let met = if is_met { "yes" } else { "no" };
-    vec![what.to_owned(), goal.to_owned(), format!("**{now}**"), met.to_owned()]
+fn row(what: &str, goal: &str, now: &str, is_met: bool) -> Goal {
+    Goal {
+        what: what.to_owned(),
+        was: "",
+        goal: goal.to_owned(),
+        now: now.to_owned(),
+        is_met,
+    }
 }
 
 /// Distance of a method below supersampling with as many samples, over the scenes of geometric edges: mean and worst.

@@ -1,46 +1,37 @@
 //! Cheapest variants that meet the needs of scenes.
 
-use super::markdown;
-use straightline_study::record::TuneRecord;
+use straightline_study::record::{Candidate, TuneRecord, join_options};
+use straightline_table::{Cell, Table};
 
 /// Chosen variant of every scene.
-pub fn scenes(records: &[TuneRecord]) -> String {
-    let head = [
-        "scene",
-        "budget",
-        "chosen",
-        "lost",
-        "ms",
-        "speedup over the most general",
-        "model off by",
-    ];
-    let row = |record: &TuneRecord| {
-        let chosen = record.chosen.and_then(|index| record.candidates.get(index));
-        let unit = if record.metric == "flip" { "" } else { " dB" };
-        let cell = |text: Option<String>| text.unwrap_or("–".to_owned());
-        vec![
-            record.scene.clone(),
-            format!("{}{unit}", record.max_error),
-            cell(chosen.map(|c| {
-                let mut words: Vec<String> = c
-                    .options
-                    .iter()
-                    .map(|(name, value)| format!("{name}={value}"))
-                    .collect();
-                words.extend((c.precision != "f32").then(|| c.precision.clone()));
-                words.extend((c.math != "exact").then(|| format!("math {}", c.math)));
-                words.extend((c.block != [1, 1]).then(|| format!("block {}x{}", c.block[0], c.block[1])));
-                format!("`{}`", words.join(" "))
-            })),
-            cell(chosen.map(|c| format!("{:.3}{unit}", (c.error - record.best).abs()))),
-            cell(chosen.and_then(|c| c.time).map(|t| format!("{:.1}", t.median_ms))),
-            cell(
-                chosen
-                    .and_then(|c| c.ratio)
-                    .map(|r| format!("{:.2} ({:.2} to {:.2})", r.median, r.low, r.high)),
-            ),
-            format!("{:.0} %", 100.0 * record.model.mean_error),
-        ]
-    };
-    markdown(&head, records.iter().map(row).collect())
+pub fn scenes(records: &[TuneRecord]) -> Table {
+    let unit = |record: &TuneRecord| if record.metric == "flip" { "" } else { " dB" };
+    let rows = records.iter();
+    let rows = rows.map(|record| (record, record.chosen.and_then(|index| record.candidates.get(index))));
+    Table::of(rows)
+        .column("scene", |(record, _)| &record.scene)
+        .column("budget", |(record, _)| format!("{}{}", record.max_error, unit(record)))
+        .column("chosen", |(_, chosen)| chosen.map(describe_variant))
+        .column("lost", |(record, chosen)| {
+            chosen.map(|c| Cell::fixed((c.error - record.best).abs(), 3).suffixed(unit(record)))
+        })
+        .column("ms", |(_, chosen)| {
+            let time = chosen.and_then(|c| c.time.as_ref())?;
+            Some(Cell::fixed(time.median_ms, 1))
+        })
+        .column("speedup over the most general", |(_, chosen)| {
+            let ratio = chosen.and_then(|c| c.ratio)?;
+            Some(Cell::interval(ratio.to_array(), 2))
+        })
+        .percent("model off by", 0, |(record, _)| record.model.mean_error)
+        .finish()
+}
+
+fn describe_variant(c: &Candidate) -> String {
+    let mut words = vec![join_options(&c.options)];
+    words.extend((c.precision != "f32").then(|| c.precision.clone()));
+    words.extend((c.math != "exact").then(|| format!("math {}", c.math)));
+    words.extend((c.block != [1, 1]).then(|| format!("block {}x{}", c.block[0], c.block[1])));
+    words.retain(|words| !words.is_empty());
+    format!("`{}`", words.join(" "))
 }

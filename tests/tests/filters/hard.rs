@@ -10,7 +10,7 @@ use straightline_codegen::{Kernel, OptionKind, Precision, Settings};
 use straightline_kernels::{CATALOGUE, HalfPrecision};
 use straightline_study::hard::{self, HardError, KernelForm, Selection};
 use straightline_study::progress::Silent;
-use straightline_study::record::{Circumstances, Executor, HardRecord, Record};
+use straightline_study::record::{Circumstances, Executor, HardRecord, IntervalKind, Record};
 use straightline_tests::impatient::StopsAfter;
 
 fn circumstances() -> Circumstances {
@@ -22,6 +22,7 @@ fn circumstances() -> Circumstances {
         clock: Clock::WallClock,
         size: [0, 0],
         rounds: 0,
+        intervals: IntervalKind::Blocks,
         complete: true,
     }
 }

@@ -15,7 +15,7 @@ use straightline_codegen::{Branches, Compiled, EmitOptions, Kernel, Settings, Un
 use straightline_runtime::{Error, Pass, PassOptions};
 use straightline_study::loops::{LoopsError, Setup, Subject, list_subjects, study_loops};
 use straightline_study::progress::Silent;
-use straightline_study::record::{Circumstances, FormKind, LoopsRecord, Record};
+use straightline_study::record::{Circumstances, FormKind, IntervalKind, LoopsRecord, Record};
 use straightline_tests::impatient::StopsAfter;
 
 /// Every built-in kernel with its default options, and the ten of `kernels/filters`.
@@ -350,6 +350,7 @@ fn every_form_is_there_or_says_why_not() {
             clock: straightline_bench::execute::Clock::WallClock,
             size: SETUP.size.to_array(),
             rounds: SETUP.rounds,
+            intervals: IntervalKind::Blocks,
             complete: true,
         },
         kernels: studied.iter().map(|studied| studied.forms.clone()).collect(),

@@ -16,7 +16,7 @@ use straightline_scene::gbuffer;
 use straightline_scene::render::{CpuRenderer, capture_scene, render_reference};
 use straightline_scene::scene::Scene;
 use straightline_study::progress::{Progress, Silent};
-use straightline_study::record::{Circumstances, TuneRecord};
+use straightline_study::record::{Circumstances, IntervalKind, TuneRecord};
 use straightline_study::tune::{
     Beyond, ErrorMetric, Gauge, Outcome, PATTERNS, Question, Subject, TuneError, tune_subject,
 };
@@ -33,6 +33,7 @@ fn circumstances() -> Circumstances {
         clock: Clock::WallClock,
         size: SIZE.to_array(),
         rounds: 3,
+        intervals: IntervalKind::Blocks,
         complete: true,
     }
 }

@@ -3,8 +3,8 @@
 use super::measure::Measured;
 use crate::failure::Failure;
 use serde::Serialize;
-use straightline_bench::execute::Quartiles;
 use straightline_scene::render::{FramePass, Samples};
+use straightline_study::statistics::{CONFIDENCE, Interval};
 
 /// A way to antialias a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,12 +38,12 @@ const METHODS: [Method; 8] = [
 pub struct FrameCost {
     pub method: String,
     /// `null` if geometry and shading are one pass.
-    pub geometry_ms: Option<Quartiles>,
-    pub shading_ms: Quartiles,
+    pub geometry_ms: Option<Interval>,
+    pub shading_ms: Interval,
     /// `null` without a filter, or if it is not a separate pass.
-    pub filter_ms: Option<Quartiles>,
-    /// Sum of the above: each quartile is the sum of the parts' quartiles.
-    pub net_ms: Quartiles,
+    pub filter_ms: Option<Interval>,
+    /// Sum of the above, round by round.
+    pub net_ms: Interval,
 }
 
 /// SRAA compared with another method, over rounds in which both ran.
@@ -52,10 +52,10 @@ pub struct Comparison {
     pub method: String,
     pub over: String,
     /// Speedup of a frame.
-    pub speedup: Quartiles,
+    pub speedup: Interval,
     /// Milliseconds of shading once a pixel above which SRAA is cheaper, if each further sample costs as much to shade.
     /// `null` if the other method shades no further samples. Negative if SRAA is cheaper at any shading cost.
-    pub break_even_ms: Option<Quartiles>,
+    pub break_even_ms: Option<Interval>,
 }
 
 /// Parts of a frame, round by round.
@@ -124,27 +124,23 @@ fn add_rounds(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a + b).collect()
 }
 
-/// Returns the quartiles of the rounds. Fails if there are none.
-pub fn find_quartiles(rounds: &[f64]) -> Result<Quartiles, Failure> {
-    Quartiles::from_values(rounds).ok_or_else(|| Failure::Failed("nothing was timed".to_owned()))
+/// Returns the median of the rounds with its interval. Fails if there are none.
+pub fn find_interval(rounds: &[f64]) -> Result<Interval, Failure> {
+    Interval::of_median(rounds, CONFIDENCE).ok_or_else(|| Failure::Failed("nothing was timed".to_owned()))
 }
 
 /// Computes the paper's table 2 from the measurements.
 pub fn frame_costs(measured: &Measured) -> Result<Vec<FrameCost>, Failure> {
     let cost = |method: &Method| {
         let parts = method.frame_parts(measured)?;
-        let of = |rounds: &Option<Vec<f64>>| rounds.as_deref().map(find_quartiles).transpose();
-        let (geometry, shading, filter) = (
-            of(&parts.geometry)?,
-            find_quartiles(&parts.shading)?,
-            of(&parts.filter)?,
-        );
+        let of = |rounds: &Option<Vec<f64>>| rounds.as_deref().map(find_interval).transpose();
+        let (geometry, shading, filter) = (of(&parts.geometry)?, find_interval(&parts.shading)?, of(&parts.filter)?);
         Ok(FrameCost {
             method: method.name(),
             geometry_ms: geometry,
             shading_ms: shading,
             filter_ms: filter,
-            net_ms: Quartiles::sum([geometry, Some(shading), filter].into_iter().flatten()),
+            net_ms: find_interval(&parts.net_times())?,
         })
     };
     METHODS.iter().map(cost).collect()
@@ -167,14 +163,14 @@ pub fn compare_methods(measured: &Measured) -> Result<Vec<Comparison>, Failure> 
             let break_even_ms = match over {
                 Method::Supersampling(samples) => {
                     let rounds = break_even_rounds(&own.beside_shading(), &other.beside_shading(), *samples);
-                    Some(find_quartiles(&rounds)?)
+                    Some(find_interval(&rounds)?)
                 }
                 _ => None,
             };
             all.push(Comparison {
                 method: method.name(),
                 over: over.name(),
-                speedup: find_quartiles(&speedups)?,
+                speedup: find_interval(&speedups)?,
                 break_even_ms,
             });
         }
@@ -184,7 +180,7 @@ pub fn compare_methods(measured: &Measured) -> Result<Vec<Comparison>, Failure> 
 
 /// Returns the break-even shading cost against shading all samples, for a filter with this many samples beside the main
 /// G-buffer, each drawn in its own pass.
-pub fn break_even(measured: &Measured, samples: Samples, filter: &[f64]) -> Result<Quartiles, Failure> {
+pub fn break_even(measured: &Measured, samples: Samples, filter: &[f64]) -> Result<Interval, Failure> {
     let pass = |pass| measured.pass_time(pass).map(|timed| timed.rounds_ms.as_slice());
     let geometry = add_rounds(
         pass(FramePass::Geometry(Samples::One))?,
@@ -196,7 +192,7 @@ pub fn break_even(measured: &Measured, samples: Samples, filter: &[f64]) -> Resu
         other => other,
     };
     let other = Method::Supersampling(samples).frame_parts(measured)?.beside_shading();
-    find_quartiles(&break_even_rounds(&own, &other, samples))
+    find_interval(&break_even_rounds(&own, &other, samples))
 }
 
 /// Returns the shading cost s of one sample at which `own + s` and `other + samples * s` are equal, round by round.

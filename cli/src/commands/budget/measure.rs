@@ -7,13 +7,16 @@ use crate::gpu::Gpu;
 use crate::scene;
 use serde::Serialize;
 use std::time::Duration;
-use straightline_bench::execute::{Bench, Clock, Job, Quartiles, Uploaded, Work, next_timestamps};
+use straightline_bench::execute::{Bench, Clock, Job, Uploaded, Work, next_timestamps};
 use straightline_codegen::{Compiled, Kernel, Settings};
 use straightline_manifest::Stage;
 use straightline_runtime::Pass;
 use straightline_scene::render::{FramePass, FramePasses, GpuRenderer, Samples};
 use straightline_scene::scene::Scene;
 use straightline_scene::{gbuffer, render};
+use straightline_study::progress::Progress;
+use straightline_study::statistics::Interval;
+use straightline_study::turns::run_in_turn;
 
 /// The paper's table 1: milliseconds at 1280×720 with 4 samples on a GeForce GTX 480.
 const METRICS: [(&str, f64); 4] = [
@@ -60,7 +63,7 @@ pub struct PassTime {
     pub samples: u32,
     /// Number of render or compute passes.
     pub passes: u32,
-    pub ms: Quartiles,
+    pub ms: Interval,
     pub rounds_ms: Vec<f64>,
 }
 
@@ -75,14 +78,14 @@ pub struct Filter {
     #[serde(skip)]
     pub samples: Samples,
     pub reads: u32,
-    pub ms: Quartiles,
+    pub ms: Interval,
     /// Median time relative to the default metric with shading at the centre.
     pub ratio: f64,
     /// Value of this ratio in the paper.
     pub paper_ratio: Option<f64>,
     /// Milliseconds of shading once a pixel above which SRAA, its geometry included, is cheaper than shading as many
     /// samples.
-    pub break_even_ms: Quartiles,
+    pub break_even_ms: Interval,
     pub rounds_ms: Vec<f64>,
 }
 
@@ -99,9 +102,9 @@ pub struct Measured {
 pub struct Together {
     /// Method that renders the frame.
     pub method: &'static str,
-    pub ms: Quartiles,
+    pub ms: Interval,
     /// Time relative to the sum of its parts, each submitted on its own; round by round.
-    pub over_parts: Quartiles,
+    pub over_parts: Interval,
     pub rounds_ms: Vec<f64>,
 }
 
@@ -150,7 +153,12 @@ impl Subject {
 }
 
 /// Times everything in turn, after one uncounted warm-up round.
-pub fn measure_passes(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Measured, Failure> {
+pub fn measure_passes(
+    args: &BudgetArgs,
+    world: &Scene,
+    gpu: &Gpu,
+    progress: &mut dyn Progress,
+) -> Result<Measured, Failure> {
     let bench = gpu.bench();
     let frame =
         FramePasses::new(&gpu.device, &gpu.queue, world, args.size, args.shading_cost).map_err(Failure::from_error)?;
@@ -186,19 +194,10 @@ pub fn measure_passes(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Mea
         });
         works.push(work.map_err(Failure::from_error)?);
     }
-    let bar = scene::progress_bar(&format!("timing {} passes", works.len()));
-    bar.set_length(u64::from(args.rounds));
-    let timed = bench.in_turn(&mut works, args.rounds, |round| {
-        bar.set_position(u64::from(round));
-        true
-    });
+    progress.begin(&format!("timing {} passes", works.len()), args.rounds as usize);
+    let timed = run_in_turn(&bench, &mut works, args.rounds, progress).map_err(Failure::from_error)?;
     drop(works);
-    let timed = timed.map_err(Failure::from_error)?;
-    bar.finish_and_clear();
-    let mut rounds = timed
-        .rounds
-        .into_iter()
-        .map(|rounds| rounds.iter().map(|time| time.as_secs_f64() * 1e3).collect::<Vec<f64>>());
+    let mut rounds = timed.rounds_ms().into_iter();
     let mut passes = Vec::new();
     for ((name, pass), rounds_ms) in PASSES.into_iter().zip(rounds.by_ref()) {
         passes.push(PassTime {
@@ -206,7 +205,7 @@ pub fn measure_passes(args: &BudgetArgs, world: &Scene, gpu: &Gpu) -> Result<Mea
             name,
             samples: sample_count(pass),
             passes: pass.pass_count(),
-            ms: frame::find_quartiles(&rounds_ms)?,
+            ms: frame::find_interval(&rounds_ms)?,
             rounds_ms,
         });
     }
@@ -242,8 +241,8 @@ fn whole_frame_time(measured: &Measured, rounds_ms: Vec<f64>) -> Result<Together
     let ratios: Vec<f64> = rounds_ms.iter().zip(sums).map(|(whole, parts)| whole / parts).collect();
     Ok(Together {
         method: "SRAA 4",
-        ms: frame::find_quartiles(&rounds_ms)?,
-        over_parts: frame::find_quartiles(&ratios)?,
+        ms: frame::find_interval(&rounds_ms)?,
+        over_parts: frame::find_interval(&ratios)?,
         rounds_ms,
     })
 }
@@ -267,7 +266,7 @@ fn filter_time(measured: &Measured, subject: &Subject, rounds_ms: Vec<f64>) -> R
         shading: subject.shading,
         samples: subject.samples,
         reads: counts.texture_reads + counts.colour_reads,
-        ms: frame::find_quartiles(&rounds_ms)?,
+        ms: frame::find_interval(&rounds_ms)?,
         ratio: 1.0,
         paper_ratio: four.then_some(subject.paper_ms / METRICS[1].1),
         break_even_ms: frame::break_even(measured, subject.samples, &rounds_ms)?,

@@ -5,7 +5,7 @@ mod frame;
 mod measure;
 mod print;
 
-use super::study::circumstances_of;
+use super::study::{ProgressBars, circumstances_of};
 use crate::args::BudgetArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
@@ -14,6 +14,7 @@ use frame::{Comparison, FrameCost};
 use measure::{Filter, PassTime, Together};
 use serde::Serialize;
 use straightline_codegen::files;
+use straightline_study::progress::Progress;
 use straightline_study::record::Circumstances;
 
 /// Formats of a geometry sample: name, bytes, and the context that assumes it.
@@ -61,9 +62,13 @@ pub fn measure_budget(args: &BudgetArgs) -> Result<(), Failure> {
     }
     let world = scene::load_viewed(&args.view)?;
     let gpu = Gpu::require(&args.adapter)?;
-    let measured = measure::measure_passes(args, &world, &gpu)?;
+    let mut progress = ProgressBars::new();
+    let measured = measure::measure_passes(args, &world, &gpu, &mut progress)?;
+    let mut circumstances = circumstances_of(&gpu, args.size, args.rounds);
+    circumstances.complete = !progress.is_stopped();
+    drop(progress);
     let record = Record {
-        circumstances: circumstances_of(&gpu, args.size, args.rounds),
+        circumstances,
         scene: args.view.scene_name(),
         triangles: world.triangles.len(),
         shading_cost: args.shading_cost,

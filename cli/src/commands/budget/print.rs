@@ -1,11 +1,12 @@
 //! Output of the measurements as text or JSON.
 
 use super::frame::FrameCost;
-use super::{Cost, FORMATS, Record};
+use super::{FORMATS, Record};
 use crate::args::BudgetArgs;
 use crate::failure::Failure;
-use crate::table;
-use straightline_bench::execute::{Clock, Quartiles};
+use straightline_bench::execute::Clock;
+use straightline_study::statistics::Interval;
+use straightline_table::{Cell, Column, Table};
 
 /// The paper's table 2: milliseconds at 1280×720 on a GeForce GTX 480, of geometry, shading, filter and net.
 const PAPER: [(&str, [f64; 4]); 3] = [
@@ -14,8 +15,6 @@ const PAPER: [(&str, [f64; 4]); 3] = [
     ("16x shading", [5.0, 160.0, 2.0, 167.0]),
 ];
 
-const ROWS: [&str; 4] = ["geometry", "shading", "filter", "net"];
-
 /// Prints the record as JSON, or as tables.
 pub fn print_record(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
     if args.json {
@@ -23,7 +22,7 @@ pub fn print_record(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
         return Ok(());
     }
     outln!(
-        "{}, {}x{} on {}; medians of {} rounds in turn, {}, in ms\n",
+        "{}, {}x{} on {}; medians of {} rounds in turn with their 95 % intervals, {}, in ms\n",
         record.scene,
         record.circumstances.size[0],
         record.circumstances.size[1],
@@ -34,165 +33,131 @@ pub fn print_record(args: &BudgetArgs, record: &Record) -> Result<(), Failure> {
             Clock::WallClock => "wall clock",
         }
     );
-    print_frames(record)?;
-    print_comparisons(record)?;
-    print_passes(record)?;
-    print_filters(record)?;
+    print_frames(record);
+    print_comparisons(record);
+    print_passes(record);
+    print_filters(record);
     if let Some(together) = &record.together {
-        outln!(
-            "{} in one submission, from graphics to compute and back: {} ms, {} times its parts' sum.\n",
-            together.method,
-            format_interval(together.ms),
-            format_interval(together.over_parts)
-        );
+        let table = Table::of([together])
+            .column("in one submission, from graphics to compute and back", |whole| {
+                whole.method
+            })
+            .column("ms", |whole| interval(whole.ms))
+            .column("by the sum of its parts", |whole| interval(whole.over_parts))
+            .finish();
+        outln!("{}", table.to_text());
     }
-    print_memory(record)
+    print_memory(record);
+    Ok(())
 }
 
-fn print_frames(record: &Record) -> Result<(), Failure> {
-    let ms = |part: Option<Quartiles>| part.map_or("-".to_owned(), |part| format!("{:.2}", part.median));
-    let row = |name: &str, cell: &dyn Fn(&FrameCost) -> String| {
-        let cells = record.frames.iter().map(cell);
-        std::iter::once(name.to_owned()).chain(cells).collect::<Vec<_>>()
-    };
-    let mut rows = vec![
-        row(ROWS[0], &|frame| ms(frame.geometry_ms)),
-        row(ROWS[1], &|frame| ms(Some(frame.shading_ms))),
-        row(ROWS[2], &|frame| ms(frame.filter_ms)),
-        row(ROWS[3], &|frame| ms(Some(frame.net_ms))),
-        row("net, lower quartile", &|frame| format!("{:.2}", frame.net_ms.lower)),
-        row("net, upper quartile", &|frame| format!("{:.2}", frame.net_ms.upper)),
+/// Prints a table with a row for each part, and a column for each method.
+fn print_frames(record: &Record) {
+    type Part = (&'static str, fn(&FrameCost) -> Option<f64>);
+    const PARTS: [Part; 6] = [
+        ("geometry", |frame| frame.geometry_ms.map(|ms| ms.median)),
+        ("shading", |frame| Some(frame.shading_ms.median)),
+        ("filter", |frame| frame.filter_ms.map(|ms| ms.median)),
+        ("net", |frame| Some(frame.net_ms.median)),
+        ("net, low", |frame| Some(frame.net_ms.low)),
+        ("net, high", |frame| Some(frame.net_ms.high)),
     ];
-    for (index, name) in ROWS.iter().enumerate() {
-        rows.push(row(&format!("paper, {name}"), &|frame| {
-            let paper = PAPER.iter().find(|(method, _)| *method == frame.method);
-            paper.map_or(String::new(), |(_, figures)| format!("{:.1}", figures[index]))
-        }));
-    }
-    let headings: Vec<&str> = std::iter::once("ms")
-        .chain(record.frames.iter().map(|frame| frame.method.as_str()))
-        .collect();
-    outln!("{}", table::render_table(&headings, &rows));
+    let measured = PARTS.map(|(name, _)| name.to_owned());
+    let paper = PARTS.into_iter().take(4).map(|(name, _)| format!("paper, {name}"));
+    let table = Table::of(measured.into_iter().chain(paper).enumerate())
+        .column("ms", |(_, name)| name.clone())
+        .columns(
+            &record.frames,
+            |frame| frame.method.clone(),
+            |(k, _), frame| match PARTS.get(*k) {
+                Some((_, part)) => part(frame).map(|ms| Cell::fixed(ms, 2)),
+                None => {
+                    let found = PAPER.iter().find(|(method, _)| *method == frame.method);
+                    found.map(|(_, figures)| Cell::fixed(figures[k - PARTS.len()], 1))
+                }
+            },
+        )
+        .finish();
+    outln!("{}", table.to_text());
     outln!("paper: SRAA's table 2, 1280x720, GeForce GTX 480.");
     outln!(
         "sample0: shaded at one of the four samples, as in the paper, so three more are drawn; else at the centre, and four more."
     );
     outln!("SRAA 16 has no multisampled pass: WebGPU has four samples, not sixteen.");
-    outln!("MSAA 4: forward rendering; geometry, shading and resolve are one pass, which stands under shading.\n");
-    Ok(())
+    outln!("MSAA 4: forward rendering; geometry, shading and resolve are one pass, shown as shading.\n");
 }
 
-fn print_comparisons(record: &Record) -> Result<(), Failure> {
-    let rows: Vec<Vec<String>> = record
-        .comparisons
-        .iter()
-        .map(|comparison| {
-            vec![
-                comparison.method.clone(),
-                comparison.over.clone(),
-                format_interval(comparison.speedup),
-                comparison.break_even_ms.map_or(String::new(), not_negative),
-            ]
+fn print_comparisons(record: &Record) {
+    let table = Table::of(&record.comparisons)
+        .column("method", |comparison| &comparison.method)
+        .column(Column::from("over").left(), |comparison| &comparison.over)
+        .column("speedup", |comparison| interval(comparison.speedup))
+        .column("pays from, ms of shading", |comparison| {
+            comparison.break_even_ms.map(not_negative)
         })
-        .collect();
-    let headings = ["method", "over", "speedup (quartiles)", "pays from, ms of shading"];
-    outln!("{}", table::render_table(&headings, &rows));
+        .finish();
+    outln!("{}", table.to_text());
     outln!(
         "pays from: what shading once a pixel costs from which SRAA's frame is cheaper, if every sample costs as much; 0: always.\n"
     );
-    Ok(())
 }
 
-fn print_passes(record: &Record) -> Result<(), Failure> {
-    let rows: Vec<Vec<String>> = record
-        .passes
-        .iter()
-        .map(|pass| {
-            vec![
-                pass.name.to_owned(),
-                pass.samples.to_string(),
-                pass.passes.to_string(),
-                format_interval(pass.ms),
-            ]
-        })
-        .collect();
-    outln!(
-        "{}",
-        table::render_table(&["timed", "samples", "passes", "ms (quartiles)"], &rows)
-    );
+fn print_passes(record: &Record) {
+    let table = Table::of(&record.passes)
+        .column("timed", |pass| pass.name)
+        .column("samples", |pass| pass.samples)
+        .column("passes", |pass| pass.passes)
+        .column("ms", |pass| interval(pass.ms))
+        .finish();
+    outln!("{}", table.to_text());
     let evaluations = match record.shading_cost {
         1 => "1 evaluation".to_owned(),
         several => format!("{several} evaluations"),
     };
     outln!("{evaluations} of the shading for each sample.\n");
-    Ok(())
 }
 
-fn print_filters(record: &Record) -> Result<(), Failure> {
-    let rows: Vec<Vec<String>> = record
-        .filters
-        .iter()
-        .map(|filter| {
-            vec![
-                filter.metric.to_owned(),
-                filter.pattern.to_owned(),
-                filter.shading.to_owned(),
-                filter.reads.to_string(),
-                format_interval(filter.ms),
-                format!("{:.2}", filter.ratio),
-                filter.paper_ratio.map_or(String::new(), |ratio| format!("{ratio:.2}")),
-                not_negative(filter.break_even_ms),
-            ]
-        })
-        .collect();
-    let headings = [
-        "metric",
-        "pattern",
-        "shading",
-        "reads",
-        "ms (quartiles)",
-        "ratio",
-        "paper",
-        "pays from, ms",
-    ];
-    outln!("{}", table::render_table(&headings, &rows));
+fn print_filters(record: &Record) {
+    let ratio = |ratio: f64| Cell::fixed(ratio, 2);
+    let table = Table::of(&record.filters)
+        .column("metric", |filter| filter.metric)
+        .column(Column::from("pattern").left(), |filter| filter.pattern)
+        .column(Column::from("shading").left(), |filter| filter.shading)
+        .column("reads", |filter| filter.reads)
+        .column("ms", |filter| interval(filter.ms))
+        .column("ratio", |filter| ratio(filter.ratio))
+        .column("paper", |filter| filter.paper_ratio.map(ratio))
+        .column("pays from, ms", |filter| not_negative(filter.break_even_ms))
+        .finish();
+    outln!("{}", table.to_text());
     outln!("ratio: to depth-normals of the same pattern, shaded at the centre; paper: table 1, GeForce GTX 480.\n");
-    Ok(())
 }
 
-fn print_memory(record: &Record) -> Result<(), Failure> {
-    let megabytes = |bytes: &u64| format!("{:.1} MB", *bytes as f64 / 1.0e6);
-    let row = |cost: &Cost| {
-        let mut row = vec![
-            cost.method.clone(),
-            cost.geometry_samples.to_string(),
-            cost.shading_samples.to_string(),
-        ];
-        row.extend(cost.gbuffer_bytes.iter().map(megabytes));
-        row.push(cost.reads.map_or(String::new(), |reads| reads.to_string()));
-        row
-    };
-    let headings = ["per pixel", "geometry", "shading", "6 B", "8 B", "12 B", "reads"];
-    outln!(
-        "{}",
-        table::render_table(&headings, &record.costs.iter().map(row).collect::<Vec<_>>())
-    );
+fn print_memory(record: &Record) {
+    let table = Table::of(&record.costs)
+        .column("per pixel", |cost| &cost.method)
+        .column("geometry", |cost| cost.geometry_samples)
+        .column("shading", |cost| cost.shading_samples)
+        .columns(
+            FORMATS.iter().enumerate(),
+            |(_, (_, bytes))| format!("{bytes} B"),
+            |cost, (k, _)| Cell::fixed(cost.gbuffer_bytes[*k] as f64 / 1.0e6, 1).suffixed(" MB"),
+        )
+        .column("reads", |cost| cost.reads)
+        .finish();
+    outln!("{}", table.to_text());
     for (format, bytes) in FORMATS {
         outln!("{bytes} B a sample: {format}");
     }
     outln!("Shading at the pixel's centre needs the geometry there too, which the main G-buffer pass has.");
-    Ok(())
 }
 
-fn format_interval(of: Quartiles) -> String {
-    format!("{:.2} ({:.2} to {:.2})", of.median, of.lower, of.upper)
+/// Returns a median with its interval as a cell.
+fn interval(of: Interval) -> Cell {
+    Cell::interval(of.to_array(), 2)
 }
 
-/// Formats a cost. Negative costs print as 0: a method with a negative break-even always pays.
-fn not_negative(of: Quartiles) -> String {
-    format_interval(Quartiles {
-        lower: of.lower.max(0.0),
-        median: of.median.max(0.0),
-        upper: of.upper.max(0.0),
-    })
+/// Returns a cost as a cell. Negative costs are shown as 0: a method with a negative break-even always pays.
+fn not_negative(of: Interval) -> Cell {
+    interval(of.map(|ms| ms.max(0.0)))
 }

@@ -6,12 +6,13 @@ use super::study::{ProgressBars, circumstances_of};
 use crate::args::QuadsArgs;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
-use crate::{scene, table};
+use crate::scene;
 use std::time::Duration;
 use straightline_codegen::files;
 use straightline_study::progress::Progress;
 use straightline_study::quads::{QuadsError, Setup, study_quads};
-use straightline_study::record::{QuadWay, QuadsRecord};
+use straightline_study::record::{QuadsRecord, Record};
+use straightline_study::statistics::describe_noise;
 
 /// Minimum time for one measurement of a shader, as in `study loops`.
 const LEAST: Duration = Duration::from_millis(40);
@@ -65,35 +66,10 @@ fn print(args: &QuadsArgs, record: &QuadsRecord) -> Result<(), Failure> {
         circumstances.date,
         record.quads
     );
-    let cells = |way: &QuadWay| {
-        let fast = &way.speedup;
-        vec![
-            way.filter.clone(),
-            way.way.clone(),
-            format!("{}, {}", way.transport, way.stage.name()),
-            way.reads.to_string(),
-            way.messages.to_string(),
-            format!("{:.2}", way.median_ms),
-            format!("{:.2} ({:.2} to {:.2})", fast.median, fast.low, fast.high),
-            format!("{:.1e}", way.mean_difference),
-            format!("{:.1e}", way.largest_difference),
-        ]
-    };
-    let rows: Vec<Vec<String>> = record.ways.iter().map(cells).collect();
-    let head = [
-        "filter",
-        "way",
-        "messages by",
-        "reads",
-        "messages",
-        "ms",
-        "speedup",
-        "mean off",
-        "largest",
-    ];
-    out!("{}", table::render_table(&head, &rows));
+    out!("{}", record.to_table().to_text());
+    outln!("\n{}", describe_noise(record.noise()));
     outln!(
-        "\nSpeedup: over the filter's first way, round by round, with the interval of 95 %. Shadow filters draw {} triangles; \
+        "Speedup: over the filter's first way, round by round, with the interval of 95 %. Shadow filters draw {} triangles; \
          those in compute read coordinates, and the pass that draws them, {:.2} ms, is in their times.",
         record.triangles,
         record.coordinates_ms

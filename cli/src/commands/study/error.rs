@@ -4,14 +4,13 @@ use super::{ProgressBars, run_circumstances};
 use crate::args::{CommonArgs, ErrorArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
-use crate::table;
 use std::collections::BTreeSet;
 use std::path::Path;
 use straightline_codegen::files;
 use straightline_scene::capture::Capture;
 use straightline_scene::scene::{self, NAMES, OF_SHADING, Scene};
 use straightline_study::quality::{self, Method, OwnError, QualityError, Setup, Source};
-use straightline_study::record::{Gap, MOST_DB, MethodErrors, QualityRecord, Record, SceneErrors};
+use straightline_study::record::{Gap, QualityRecord, Record, SceneErrors};
 
 /// Frames of the pan.
 const FRAMES: u32 = 5;
@@ -171,7 +170,7 @@ fn scene_source(name: &str, scene: Scene) -> Source {
 
 fn print(record: &QualityRecord, out: &Path) {
     for scene in &record.scenes {
-        print_scene(scene);
+        print_scene(record, scene);
     }
     let circumstances = &record.circumstances;
     if !circumstances.complete {
@@ -194,7 +193,7 @@ fn print(record: &QualityRecord, out: &Path) {
     outln!("error.json, error.csv and pictures are in {}.", out.display());
 }
 
-fn print_scene(scene: &SceneErrors) {
+fn print_scene(record: &QualityRecord, scene: &SceneErrors) {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let shares = &scene.shares;
     outln!("{}: {}", scene.scene, scene.purpose);
@@ -204,11 +203,7 @@ fn print_scene(scene: &SceneErrors) {
         percent(shares.shading),
         percent(shares.unseen)
     );
-    let headings = [
-        "method", "PSNR", "SSIM", "FLIP", "geometry", "shading", "flat", "of 16x", "pan", "time", "MB",
-    ];
-    let rows: Vec<Vec<String>> = scene.methods.iter().map(table_row).collect();
-    outln!("{}", table::render_table(&headings, &rows));
+    outln!("{}", record.tabulate([scene]).without(&["scene", "options"]).to_text());
     for gap in &scene.gaps {
         outln!("{}", gap_in_words(gap));
     }
@@ -219,31 +214,6 @@ fn print_scene(scene: &SceneErrors) {
         outln!("without {method}: {reason}");
     }
     outln!();
-}
-
-fn table_row(method: &MethodErrors) -> Vec<String> {
-    let db = |value: Option<f64>| match value {
-        None => String::new(),
-        Some(db) if db >= MOST_DB => "equal".to_owned(),
-        Some(db) => format!("{db:.2}"),
-    };
-    vec![
-        method.method.clone(),
-        db(Some(method.psnr)),
-        format!("{:.4}", method.ssim),
-        format!("{:.4}", method.flip),
-        db(method.psnr_geometry),
-        db(method.psnr_shading),
-        db(method.psnr_flat),
-        method
-            .gap_closed
-            .map_or(String::new(), |share| format!("{:.0} %", 100.0 * share)),
-        method.temporal.map_or(String::new(), |error| format!("{error:.4}")),
-        method
-            .time
-            .map_or(String::new(), |time| format!("{:.2} ms", time.median_ms)),
-        format!("{:.1}", method.bytes as f64 / 1e6),
-    ]
 }
 
 fn gap_in_words(gap: &Gap) -> String {

@@ -6,7 +6,6 @@ use crate::args::{CommonArgs, FilmArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::scene;
-use crate::table;
 use glam::UVec2;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -114,11 +113,7 @@ fn filmed_methods(methods: Vec<Method>, film: &Film) -> Vec<FilmedMethod> {
 }
 
 fn print(record: &FilmRecord, out: &Path) {
-    let rows: Vec<Vec<String>> = record.methods.iter().map(table_row).collect();
-    outln!(
-        "{}",
-        table::render_table(&["method", "error of what changes", "least", "most"], &rows)
-    );
+    outln!("{}", record.summarise().to_text());
     let names: Vec<&str> = record.methods.iter().map(|method| method.method.as_str()).collect();
     outln!(
         "{} frames of {}, {} by {} pixels apart; row by row {} and {REFERENCE}, the reference. The root of the mean \
@@ -133,12 +128,4 @@ fn print(record: &FilmRecord, out: &Path) {
         "film.png (animated), frames, film.json and film.csv are in {}.",
         out.display()
     );
-}
-
-fn table_row(method: &FilmedMethod) -> Vec<String> {
-    let least = method.errors.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = method.errors.iter().copied().fold(0.0, f64::max);
-    let mut row = vec![method.method.clone()];
-    row.extend([method.rms_error(), least, most].map(|error| format!("{error:.4}")));
-    row
 }

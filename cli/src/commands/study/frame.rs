@@ -3,11 +3,10 @@
 use super::command_line;
 use crate::args::{CommonArgs, FrameArgs};
 use crate::failure::Failure;
-use crate::table;
 use std::collections::BTreeMap;
 use straightline_codegen::files;
 use straightline_study::frame::{FrameRequest, combine_frames};
-use straightline_study::record::{FrameMethod, FrameRecord, PassTimes, QualityRecord, Record, read_file};
+use straightline_study::record::{FrameRecord, PassTimes, QualityRecord, Record, read_file};
 use straightline_study::report::frame_plot;
 
 /// Maximum number of shading costs; each is a panel.
@@ -45,25 +44,7 @@ pub fn compose_frames(common: &CommonArgs, args: &FrameArgs) -> Result<(), Failu
 
 /// Prints all methods, and marks the best at each cost.
 fn print(record: &FrameRecord) {
-    let row = |m: &FrameMethod| {
-        let mut row = vec![
-            m.method.clone(),
-            format!("{:.4}", m.error),
-            format!("{:.2}", m.psnr),
-            format!("{:.1}", m.geometry_ms),
-            m.shaded.to_string(),
-            format!("{:.1}", m.filter_ms),
-        ];
-        let frames = m.frames.iter();
-        row.extend(frames.map(|f| format!("{:.1}{}", f.ms, if f.is_best { " *" } else { "  " })));
-        row
-    };
-    let costs = record.shading_ms.iter().map(|ms| format!("frame at {ms} ms  "));
-    let costs: Vec<String> = costs.collect();
-    let mut head = vec!["method", "error", "PSNR", "geometry ms", "shaded", "filter ms"];
-    head.extend(costs.iter().map(String::as_str));
-    let rows: Vec<Vec<String>> = record.methods.iter().map(row).collect();
-    out!("{}", table::render_table(&head, &rows));
+    out!("{}", record.summarise(" *").to_text());
     outln!(
         "\n* no other method takes as little time with a smaller error. Medians; shading costs are of one sample of every pixel."
     );

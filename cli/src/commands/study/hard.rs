@@ -4,11 +4,11 @@ use super::{ProgressBars, on_processor, run_circumstances};
 use crate::args::{CommonArgs, HardArgs};
 use crate::failure::Failure;
 use crate::gpu::{Gpu, INSTALL};
-use crate::table;
 use std::collections::BTreeMap;
 use straightline_codegen::Precision;
 use straightline_study::hard::{self, Selection};
 use straightline_study::record::{HardRecord, HardResult, Record};
+use straightline_table::Table;
 
 /// Runs hard cases, prints their results, and writes the record.
 pub fn run_hard_cases(common: &CommonArgs, args: &HardArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
@@ -86,18 +86,18 @@ fn result_matrix(record: &HardRecord, selection: &Selection) -> String {
         for (letter, form) in &forms {
             text += &format!("  {letter}  {form}\n");
         }
-        let mut head = vec!["case".to_owned()];
-        head.extend(forms.iter().map(|(letter, _)| letter.to_string()));
-        let rows = record.cases.iter().map(|case| {
-            let mut row = vec![case.name.clone()];
-            row.extend(forms.iter().map(|(_, form)| {
-                let own = case.results.iter();
-                result_cell(own.filter(|r| r.kernel == *form && r.precision == precision.to_string()))
-            }));
-            row
-        });
-        let head: Vec<&str> = head.iter().map(String::as_str).collect();
-        text += &format!("\n{}", table::render_table(&head, &rows.collect::<Vec<_>>()));
+        let table = Table::of(&record.cases)
+            .column("case", |case| &case.name)
+            .columns(
+                &forms,
+                |(letter, _)| letter.to_string(),
+                |case, (_, form)| {
+                    let own = case.results.iter();
+                    result_cell(own.filter(|r| r.kernel == *form && r.precision == precision.to_string()))
+                },
+            )
+            .finish();
+        text += &format!("\n{}", table.to_text());
     }
     text
 }

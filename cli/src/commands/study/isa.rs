@@ -3,9 +3,7 @@
 use super::{ProgressBars, command_line, current_time, loops};
 use crate::args::{CommonArgs, IsaArgs};
 use crate::failure::Failure;
-use crate::table;
 use std::path::PathBuf;
-use straightline_isa::Figures;
 use straightline_study::isa::{self, Asking, IsaStudyError, Question};
 use straightline_study::record::{IsaRecord, Record};
 
@@ -50,23 +48,10 @@ fn find_glslang() -> Option<PathBuf> {
 }
 
 fn print(record: &IsaRecord) {
-    let mut head = vec!["kernel, form"];
-    head.extend(Figures::default().in_short().map(|(name, _)| name));
     for (family, device) in &record.devices {
-        let rows = record.shaders.iter().filter_map(|asked| {
-            let figures = asked.figures.get(family)?.in_short();
-            let name = format!(
-                "{}, {}, {}",
-                asked.kernel,
-                asked.form.display_name(),
-                asked.path.display_name()
-            );
-            let cells = std::iter::once(name).chain(figures.map(|(_, figure)| figure.to_string()));
-            Some(cells.collect())
-        });
         outln!(
             "{family}: {device}\n\n{}",
-            table::render_table(&head, &rows.collect::<Vec<_>>())
+            record.of_family(*family).to_table().to_text()
         );
     }
     for why in record.absent.values() {

@@ -5,7 +5,6 @@ use crate::args::{CommonArgs, LoopsArgs};
 use crate::commands::run::values;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
-use crate::table;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
@@ -13,7 +12,8 @@ use straightline_codegen::{Kernel, Settings, files, shorten};
 use straightline_scene::picture;
 use straightline_study::loops::{LoopsError, Setup, Studied, Subject, list_subjects, study_loops};
 use straightline_study::progress::Progress;
-use straightline_study::record::{KernelForms, LoopsRecord, Record};
+use straightline_study::record::{LoopsRecord, Record};
+use straightline_study::statistics::describe_noise;
 
 /// Minimum time for one measurement of a form. On two busy cores the ratios of a form spread by 0.64 of their median at 40
 /// ms, by 0.81 at 10 ms, and by 1.06 for a single frame.
@@ -129,22 +129,9 @@ fn print(record: &LoopsRecord) {
         c.date,
         if c.complete { "" } else { "; interrupted" }
     );
-    let rows: Vec<Vec<String>> = record.kernels.iter().flat_map(table_rows).collect();
-    let head = [
-        "kernel",
-        "form",
-        "loops",
-        "statements",
-        "reads",
-        "SPIR-V",
-        "ready in",
-        "ms",
-        "speedup",
-        "off f64, 99.9 %",
-        "largest",
-    ];
-    out!("{}", table::render_table(&head, &rows));
-    outln!("\nspeedup: over the looped form, median of the rounds (a tenth were below, a tenth above)");
+    out!("{}", record.to_table().to_text());
+    outln!("\nspeedup: over the looped form; median of the rounds, with its 95 % interval");
+    outln!("{}", describe_noise(record.noise()));
     for kernel in record.kernels.iter().filter(|kernel| kernel.input.contains(" = ")) {
         outln!("{}: on {}", kernel.kernel, kernel.input);
     }
@@ -153,30 +140,4 @@ fn print(record: &LoopsRecord) {
             outln!("{}, {}: {why}", kernel.kernel, kind.display_name());
         }
     }
-}
-
-fn table_rows(kernel: &KernelForms) -> Vec<Vec<String>> {
-    let optional = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.1e}"));
-    let row = |(k, form): (usize, &straightline_study::record::FormRecord)| {
-        vec![
-            if k == 0 { kernel.kernel.clone() } else { String::new() },
-            form.kind.display_name().to_owned(),
-            form.loops.to_string(),
-            form.statements.to_string(),
-            form.reads.to_string(),
-            format!("{:.1} kB", form.spirv_bytes as f64 / 1e3),
-            format!("{:.0} ms", form.pipeline_ms),
-            format!(
-                "{:.2} ({:.2} to {:.2})",
-                form.time.median_ms, form.time.min_ms, form.time.max_ms
-            ),
-            format!(
-                "{:.2} ({:.2}, {:.2})",
-                form.ratio.median, form.ratio.low, form.ratio.high
-            ),
-            optional(form.difference_999),
-            optional(form.difference),
-        ]
-    };
-    kernel.forms.iter().enumerate().map(row).collect()
 }

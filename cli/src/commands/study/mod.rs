@@ -21,7 +21,7 @@ use std::time::SystemTime;
 use straightline_bench::execute::Clock;
 use straightline_codegen::files;
 use straightline_study::progress::Progress;
-use straightline_study::record::Circumstances;
+use straightline_study::record::{Circumstances, IntervalKind};
 use straightline_study::report;
 
 pub use progress::ProgressBars;
@@ -110,6 +110,7 @@ pub fn on_processor(size: UVec2, rounds: u32) -> Circumstances {
         clock: Clock::WallClock,
         size: size.to_array(),
         rounds,
+        intervals: IntervalKind::Blocks,
         complete: true,
     }
 }

@@ -7,7 +7,6 @@ use crate::args::{CommonArgs, MotionArgs};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::scene;
-use crate::table;
 use glam::UVec2;
 use straightline_study::quality;
 use straightline_study::record::{Motion, MotionRecord, MovedScene, Record};
@@ -52,20 +51,7 @@ pub fn compare_motion(common: &CommonArgs, args: &MotionArgs, progress: &mut Pro
         }
     }
     record.write(&common.out).map_err(Failure::from_error)?;
-    let rows: Vec<Vec<String>> = record
-        .scenes
-        .iter()
-        .flat_map(|scene| {
-            scene.methods.iter().map(|found| {
-                let figures = [(found.psnr, 2), (found.flip, 4), (found.flicker, 4)];
-                let names = [scene.scene.as_str(), scene.motion.display_name(), &found.method].map(str::to_owned);
-                let figures = figures.map(|(figure, digits)| format!("{figure:.digits$}"));
-                names.into_iter().chain(figures).collect()
-            })
-        })
-        .collect();
-    let head = ["scene", "motion", "method", "PSNR", "FLIP", "flicker"];
-    outln!("{}", table::render_table(&head, &rows));
+    outln!("{}", record.to_table().to_text());
     outln!(
         "{} frames each, against 64 samples a pixel: mean PSNR in dB, mean FLIP, and the root of the mean squared error of what \
          changes from a frame to the next. motion.json and motion.csv are in {}.",

@@ -2,11 +2,11 @@
 
 use crate::args::TuneArgs;
 use crate::failure::Failure;
-use crate::table;
 use std::path::PathBuf;
-use straightline_bench::execute::Ratio;
 use straightline_study::record::{Candidate, TuneRecord};
+use straightline_study::statistics::Interval;
 use straightline_study::tune::ErrorMetric;
+use straightline_table::Cell;
 
 /// Prints the record as JSON, or its findings as tables.
 pub fn print_report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -> Result<(), Failure> {
@@ -49,11 +49,12 @@ pub fn print_report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -
     }
     if !record.terms.is_empty() {
         outln!("\nThe most general variant with one term replaced:\n");
-        outln!("{}", terms_table(record, metric));
+        let loss = |cost: f64| Cell::new(cost.to_string(), format_loss(cost, metric));
+        outln!("{}", record.terms_table(loss).to_text());
     }
     if record.candidates.iter().any(|c| c.front) {
         outln!("Of those measured, the front of cost against error:\n");
-        outln!("{}", front_table(record, metric));
+        outln!("{}", record.front_table(metric.decimals()).to_text());
     }
     let model = &record.model;
     if model.learned_from > 0 {
@@ -99,47 +100,6 @@ fn format_budget(record: &TuneRecord, metric: ErrorMetric) -> String {
     }
 }
 
-fn terms_table(record: &TuneRecord, metric: ErrorMetric) -> String {
-    let rows = record.terms.iter().map(|term| {
-        vec![
-            term.term.clone(),
-            term.instead.clone(),
-            format_loss(term.cost, metric),
-            format_ratio(term.ratio),
-        ]
-    });
-    table::render_table(&["instead of", "with", "error", "speedup"], &rows.collect::<Vec<_>>())
-}
-
-fn front_table(record: &TuneRecord, metric: ErrorMetric) -> String {
-    let mut shown: Vec<(usize, &Candidate)> = record.candidates.iter().enumerate().filter(|(_, c)| c.front).collect();
-    let speed = |c: &Candidate| c.ratio.map_or(0.0, |ratio| ratio.median);
-    shown.sort_by(|a, b| speed(b.1).total_cmp(&speed(a.1)));
-    if let Some(general) = record.candidates.get(record.general)
-        && !general.front
-    {
-        shown.push((record.general, general));
-    }
-    let rows = shown.iter().map(|(index, c)| {
-        let mark = match (record.chosen == Some(*index), *index == record.general) {
-            (true, _) => " <- chosen",
-            (_, true) => " <- most general",
-            _ => "",
-        };
-        vec![
-            format!("{}{mark}", c.name),
-            metric.format_error(c.error),
-            c.measured_cost().map_or(String::new(), |cost| format!("{cost:.2}")),
-            format_ratio(c.ratio),
-            format!("{:.2}", c.predicted),
-            format!("{:.1}", c.gbuffer_bytes as f64 / 1.0e6),
-        ]
-    });
-    let predicted = format!("predicted {}", record.unit());
-    let headings = ["variant", "error", record.unit(), "speedup", &predicted, "G-buffer MB"];
-    table::render_table(&headings, &rows.collect::<Vec<_>>())
-}
-
 fn format_loss(cost: f64, metric: ErrorMetric) -> String {
     let what = if cost > 0.0 { "worse" } else { "better" };
     match metric {
@@ -150,24 +110,19 @@ fn format_loss(cost: f64, metric: ErrorMetric) -> String {
 }
 
 /// Formats the speedup over the most general variant, which may be slower than one with more terms.
-fn format_speed(found: Option<Ratio>) -> String {
-    let longer = found.filter(|found| found.median < 1.0).map(|found| Ratio {
-        median: 1.0 / found.median,
-        low: 1.0 / found.high,
-        high: 1.0 / found.low,
-    });
-    match longer {
-        Some(_) => format!(
-            "takes {} times as long as the most general variant",
-            format_ratio(longer)
-        ),
-        None => format!("speedup {} over the most general variant", format_ratio(found)),
+fn format_speed(found: Option<Interval>) -> String {
+    match found {
+        Some(Interval { median, low, high }) if median < 1.0 => {
+            let longer = Interval {
+                median: 1.0 / median,
+                low: 1.0 / high,
+                high: 1.0 / low,
+            };
+            format!("takes {longer} times as long as the most general variant")
+        }
+        found => {
+            let speedup = found.map_or(String::new(), |found| found.to_string());
+            format!("speedup {speedup} over the most general variant")
+        }
     }
-}
-
-fn format_ratio(ratio: Option<Ratio>) -> String {
-    ratio.map_or(String::new(), |r| match r.low == r.high {
-        true => format!("{:.2}", r.median),
-        false => format!("{:.2} ({:.2} to {:.2})", r.median, r.low, r.high),
-    })
 }

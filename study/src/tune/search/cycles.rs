@@ -2,8 +2,8 @@
 
 use super::Search;
 use crate::progress::Progress;
+use crate::statistics::Interval;
 use crate::tune::{Gauge, Term, TuneError};
-use straightline_bench::execute::Ratio;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, EmitOptions, Precision, Stage};
 use straightline_isa::IsaError;
@@ -37,7 +37,7 @@ impl Search {
         for k in which {
             // Cycles are the same every time: a variant that is faster by little is faster.
             let ratio = general.zip(self.entries[*k].cycles).map(|(general, own)| general / own);
-            self.entries[*k].ratio = ratio.map(|ratio| Ratio {
+            self.entries[*k].ratio = ratio.map(|ratio| Interval {
                 median: ratio,
                 low: ratio,
                 high: ratio,

@@ -13,10 +13,11 @@ use super::subject::Subject;
 use super::{EQUAL_DB, ErrorMetric, Gauge, Question, Term, TuneError};
 use crate::builtin::load_builtin;
 use crate::record::Model;
+use crate::statistics::Interval;
 use glam::{UVec2, Vec4};
 use ground::{Ground, Placing, build_offer, no_blocks, sample_set};
 use std::collections::BTreeMap;
-use straightline_bench::execute::{Bench, ExecuteError, Ratio, Times, Uploaded};
+use straightline_bench::execute::{Bench, ExecuteError, Times, Uploaded};
 use straightline_codegen::{Compiled, Kernel, Precision, Stage};
 use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::Frame;
@@ -45,7 +46,7 @@ pub(in crate::tune) struct Entry {
     pub time: Option<Times>,
     /// Cycles of a wave and pixel of its invocations, where a compiler is asked.
     pub cycles: Option<f64>,
-    pub ratio: Option<Ratio>,
+    pub ratio: Option<Interval>,
 }
 
 impl Entry {

@@ -3,8 +3,10 @@
 use super::{Search, chunk_size};
 use crate::progress::Progress;
 use crate::record::Model;
+use crate::statistics::Interval;
 use crate::tune::features::NAMES;
 use crate::tune::{Gauge, TuneError, model};
+use crate::turns::run_in_turn;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use straightline_bench::execute::{Job, Work};
@@ -62,7 +64,7 @@ impl Search {
         let general = &self.entries[0];
         let general = general
             .cycles
-            .or(general.time.map(|time| time.median_ms))
+            .or(general.time.as_ref().map(|time| time.median_ms))
             .unwrap_or(0.0)
             / size;
         let measured = |k: &usize| Some((self.feature_row(*k)?, general / self.entries[*k].ratio?.median));
@@ -153,17 +155,14 @@ impl Search {
         };
         let mut works: Vec<Work<'_>> = all.iter().map(work).collect::<Result<_, _>>()?;
         progress.begin(what, rounds as usize);
-        let mut complete = false;
-        let timed = self.bench.in_turn(&mut works, rounds, |round| {
-            if round > 0 {
-                progress.step();
-            }
-            complete = round == rounds;
-            !progress.is_stopped()
-        })?;
+        let timed = run_in_turn(&self.bench, &mut works, rounds, progress)?;
+        let complete = timed.rounds.iter().all(|times| times.len() as u32 >= rounds);
         for (job, k) in all.iter().enumerate() {
             self.entries[*k].time = timed.times(job);
-            self.entries[*k].ratio = timed.ratio(0, job);
+            let base = self.entries[all[0]].time.as_ref();
+            let both = base.zip(self.entries[*k].time.as_ref());
+            let ratio = both.and_then(|(base, own)| Interval::of_ratio(&base.rounds_ms, &own.rounds_ms));
+            self.entries[*k].ratio = ratio;
         }
         Ok(complete)
     }

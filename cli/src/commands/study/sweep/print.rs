@@ -1,10 +1,10 @@
 //! Output of sweeps as text.
 
 use crate::failure::format_count;
-use crate::table;
-use std::collections::BTreeMap;
-use straightline_study::record::{SweepRecord, Swept};
-use straightline_study::sweep::{Axis, Compared, Interval};
+use straightline_study::record::SweepRecord;
+use straightline_study::statistics::describe_noise;
+use straightline_study::sweep::Compared;
+use straightline_table::{Cell, Column, Table};
 
 /// Prints a table of all variants, and the reasons for rejected ones.
 pub fn print_record(record: &SweepRecord) {
@@ -26,55 +26,18 @@ pub fn print_record(record: &SweepRecord) {
         c.date,
         if c.complete { "" } else { "; interrupted" }
     );
-    let axes = varied_axes(record);
-    let rivals = record.variants.iter().any(|variant| variant.rival.is_some());
-    let mut head: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
-    if rivals {
-        head.push("rival");
-    }
-    head.extend([
-        "rounds",
-        "ms",
-        "speedup (95 %)",
-        "loops",
-        "statements",
-        "reads",
-        "off f64, 99.9 %",
-        "largest",
-    ]);
-    let row = |variant: &Swept| {
-        let measured = variant.measured.as_ref()?;
-        let number = |number: Option<u32>| number.map_or(String::new(), |number| number.to_string());
-        let mut row = setting_values(&axes, &variant.settings);
-        if rivals {
-            row.push(variant.rival.clone().unwrap_or_default());
-        }
-        row.extend([
-            measured.rounds_ms.len().to_string(),
-            format!("{:.3}", measured.median_ms),
-            match record.is_baseline(variant) {
-                true => "baseline".to_owned(),
-                false => measured.speedup.as_ref().map_or(String::new(), format_interval),
-            },
-            number(measured.loops),
-            number(measured.statements),
-            number(measured.reads),
-            format!("{:.1e}", measured.difference_999),
-            format!("{:.1e}", measured.difference),
-        ]);
-        Some(row)
-    };
-    let rows: Vec<Vec<String>> = record.variants.iter().filter_map(row).collect();
-    out!("{}", table::render_table(&head, &rows));
+    out!("{}", record.summarise().to_text());
     let base: Vec<String> = record
         .baseline
         .iter()
         .map(|(name, value)| format!("{name}={value}"))
         .collect();
     outln!(
-        "\nspeedup: over {}, all else equal; median of the rounds, and in which interval it lies with 95 %",
+        "\nspeedup: over {}, all else equal; median of the rounds, with its 95 % interval",
         base.join(" ")
     );
+    outln!("{}", describe_noise(record.noise()));
+    let axes = record.varied_axes();
     for variant in &record.variants {
         if let Some(why) = &variant.refused {
             let mut what: Vec<String> = axes
@@ -89,45 +52,23 @@ pub fn print_record(record: &SweepRecord) {
 
 /// Prints the comparison of two records.
 pub fn print_comparison(record: &SweepRecord, compared: &[Compared]) {
-    let axes = varied_axes(record);
-    let mut head: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
-    head.extend(["rival", "first", "second", "second by first", ""]);
-    let row = |of: &Compared| {
-        let mut row = setting_values(&axes, &of.settings);
-        row.push(of.rival.clone().unwrap_or_default());
-        row.extend(of.speedup.map(|ratio| format!("{ratio:.3}")));
-        row.push(format_interval(&of.quotient));
-        row.push(if of.differs { "differs" } else { "" }.to_owned());
-        row
-    };
-    out!(
-        "{}",
-        table::render_table(&head, &compared.iter().map(row).collect::<Vec<_>>())
-    );
+    let table = Table::of(compared)
+        .columns(
+            record.varied_axes(),
+            |axis| axis.name.clone(),
+            |of, axis| of.settings.get(&axis.name).cloned(),
+        )
+        .column("rival", |of| of.rival.clone())
+        .fixed("first", 3, |of| of.speedup[0])
+        .fixed("second", 3, |of| of.speedup[1])
+        .column(Column::interval("second by first"), |of| {
+            Cell::interval(of.quotient.to_array(), 2)
+        })
+        .column("", |of| if of.differs { "differs" } else { "" })
+        .finish();
+    out!("{}", table.to_text());
     outln!(
         "\nfirst, second: speedup over the baseline. Of all intervals together 95 % hold what they should, for these two runs: \
          how other runs would differ they do not say."
     );
-}
-
-/// Returns the axes with several values, or the baseline's axes if no axis has several.
-fn varied_axes(record: &SweepRecord) -> Vec<&Axis> {
-    let several: Vec<&Axis> = record.axes.iter().filter(|axis| axis.values.len() > 1).collect();
-    match several.is_empty() {
-        true => record
-            .axes
-            .iter()
-            .filter(|axis| record.baseline.contains_key(&axis.name))
-            .collect(),
-        false => several,
-    }
-}
-
-fn setting_values(axes: &[&Axis], settings: &BTreeMap<String, String>) -> Vec<String> {
-    let value = |axis: &&Axis| settings.get(&axis.name).cloned().unwrap_or_default();
-    axes.iter().map(value).collect()
-}
-
-fn format_interval(of: &Interval) -> String {
-    format!("{:.2} ({:.2} to {:.2})", of.median, of.low, of.high)
 }
