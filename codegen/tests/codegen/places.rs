@@ -458,12 +458,6 @@ fn what_cannot_be_a_function_is_refused() {
     refused(&takes, &workgroup, &["no workgroup"]);
     let subgroups = function().enable_subgroups(true);
     refused(&takes, &subgroups, &["`enable subgroups;`"]);
-    let sized = kernel(
-        "pub fn sized(resolution: UVec2, pixel: IVec2) -> Vec4 {\n    Vec4::splat(resolution.x as f32)\n}\n",
-        "sized",
-    );
-    let code = sized.emit(&function()).err().and_then(|errors| errors.first_code());
-    assert_eq!(code, Some(Code::FrameSize));
 }
 
 #[test]
