@@ -3,7 +3,6 @@
 use crate::compilers;
 
 use compilers::read;
-use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Manifest, Origin, Precision, Settings, Stage};
 use straightline_manifest::{LanguageKind, hash_of_text};

@@ -108,7 +108,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
 }
 
-/// Where the table of `docs/kernel-language.md` begins and ends.
+/// Marks around the table of `docs/kernel-language.md`.
 const MARKS: [&str; 2] = ["<!-- names -->\n", "<!-- end of names -->"];
 
 /// Compares a text with the one that is kept, or keeps it.
