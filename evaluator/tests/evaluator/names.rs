@@ -50,12 +50,12 @@ const OUTSIDE: [(&str, &[&str]); 9] = [
     ("errors", &["Try", "try_", "inspect", "Residual", "as_deref"]),
 ];
 
-fn evaluate(text: &str) -> Result<(), Diagnostic> {
+fn evaluate(text: &str) -> Result<(), Box<Diagnostic>> {
     let files = Arc::new(vec![File {
         path: "k.rs".to_owned(),
         text: text.to_owned(),
     }]);
-    let first = |errors: Vec<Diagnostic>| errors.into_iter().next().expect("an error");
+    let first = |errors: Vec<Diagnostic>| Box::new(errors.into_iter().next().expect("an error"));
     let mut parsed = front::parse(&files, "k").map_err(|errors| first(errors.diagnostics))?;
     let mut wrong = parsed.errors.clone();
     if let Err(mistyped) = infer::infer_types(&mut parsed.library, &parsed.reached) {
@@ -94,7 +94,7 @@ fn judge(name: &Name) -> Verdict {
         (Ok(()), _) => Verdict::Taken,
         (Err(_), Some((why, _))) => Verdict::Outside(why),
         (Err(error), None) => {
-            let help = error.help.unwrap_or_default();
+            let help = error.help.clone().unwrap_or_default();
             let text = format!("{}; {help}", error.message);
             match help.starts_with("write ") {
                 true => Verdict::Refused(text),
