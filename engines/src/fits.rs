@@ -146,7 +146,7 @@ pub fn find_unknown_size(manifest: &Manifest, limits: &Limits, title: &str) -> O
     let why = format!(
         "needs the target's size, and {title} gives only the sizes of textures: take the picture as a `Frame`, which has that size"
     );
-    (needs_size && limits.resolution.is_none()).then(|| Misfit {
+    (needs_size && limits.resolution.is_none()).then_some(Misfit {
         why,
         input: None,
         code: Code::FrameSize,
