@@ -8,6 +8,9 @@ use straightline_codegen::emit::single_line_comment;
 use straightline_codegen::{OptionInfo, OptionKind};
 use straightline_manifest::{BindingKind, Extent, LanguageBinding, LanguageKind, Manifest, SamplerType};
 
+/// Documentation of the uniform with the target's size.
+const SIZE_DOCS: &str = "Width and height of the target, in pixels.";
+
 /// Context of a template.
 #[derive(Clone, Debug, Serialize)]
 pub struct Context {
@@ -34,6 +37,8 @@ pub struct Context {
     pub samplers: Vec<SamplerContext>,
     /// Uniforms, in order of offset.
     pub uniforms: Vec<UniformContext>,
+    /// The uniform with the target's width and height, if the templates fill it.
+    pub resolution: Option<UniformContext>,
     /// The buffer that uniforms lie in where the language has one.
     pub block: Option<BlockContext>,
     /// Values computed for a pixel.
@@ -112,6 +117,8 @@ pub struct UniformContext {
     pub min: Option<String>,
     /// Greatest value, as a literal, where the kernel states it.
     pub max: Option<String>,
+    /// True if it is the target's width and height.
+    pub is_size: bool,
 }
 
 /// The buffer of uniforms.
@@ -175,7 +182,7 @@ pub struct CombinedContext {
 /// An argument of a function.
 #[derive(Clone, Debug, Serialize)]
 pub struct ArgumentContext {
-    /// `texture`, `sampler`, `position`, `varying` or `uniform`.
+    /// `texture`, `sampler`, `position`, `varying`, `resolution` or `uniform`.
     pub kind: &'static str,
     /// Name in the function.
     pub name: String,
@@ -270,6 +277,23 @@ pub fn sampler_contexts(manifest: &Manifest) -> Vec<SamplerContext> {
     each.collect()
 }
 
+/// Returns the name of the uniform with the target's size.
+fn size_name(manifest: &Manifest) -> Option<&str> {
+    manifest.bindings.iter().find_map(|binding| match &binding.kind {
+        BindingKind::Uniform { fields, .. } => {
+            let field = fields.iter().find(|field| field.frame_size)?;
+            Some(field.name.as_str())
+        }
+        _ => None,
+    })
+}
+
+/// Returns the uniform with the target's size.
+pub fn size_context(manifest: &Manifest) -> Option<UniformContext> {
+    let (uniforms, _) = uniform_contexts(manifest, &[]);
+    uniforms.into_iter().find(|uniform| uniform.is_size)
+}
+
 /// Returns the uniforms of a manifest, with the information of the kernel's options.
 pub fn uniform_contexts(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<UniformContext>, Option<BlockContext>) {
     let block = manifest.bindings.iter().find_map(|binding| match &binding.kind {
@@ -295,9 +319,12 @@ pub fn uniform_contexts(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<Uni
         UniformContext {
             name: field.name.clone(),
             spelled: spelled.map_or(&field.name, |b| &b.name).clone(),
-            docs: option
-                .map(|option| single_line_comment(&option.docs))
-                .unwrap_or_default(),
+            docs: match field.frame_size {
+                true => SIZE_DOCS.to_owned(),
+                false => option
+                    .map(|option| single_line_comment(&option.docs))
+                    .unwrap_or_default(),
+            },
             wgsl: field.ty.to_string(),
             glsl: spelling::glsl_type(field.ty),
             hlsl: spelling::hlsl_type(field.ty),
@@ -308,6 +335,7 @@ pub fn uniform_contexts(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<Uni
             has_default: field.default.is_some(),
             min,
             max,
+            is_size: field.frame_size,
         }
     });
     let block = BlockContext {
@@ -329,8 +357,11 @@ pub fn output_contexts(manifest: &Manifest) -> Vec<OutputContext> {
     each.collect()
 }
 
-/// A shader, by its manifest; whether it takes uniforms, or has them declared before it.
-pub fn shader_context(text: String, takes_uniforms: bool, manifest: &Manifest) -> ShaderContext {
+/// A shader, by its manifest; whether it takes uniforms, or has them declared before it; whether templates fill in the
+/// target's size.
+pub fn shader_context(text: String, takes_uniforms: bool, fills_size: bool, manifest: &Manifest) -> ShaderContext {
+    let size = size_name(manifest);
+    let is_size = |b: &LanguageBinding| size.is_some() && b.of.as_deref() == size;
     let bindings = &manifest.language_bindings;
     let combined = bindings.iter().filter(|b| b.kind == LanguageKind::CombinedSampler);
     let combined = combined.map(|b| {
@@ -367,6 +398,7 @@ pub fn shader_context(text: String, takes_uniforms: bool, manifest: &Manifest) -
             LanguageKind::Sampler => "sampler",
             LanguageKind::Position => "position",
             LanguageKind::Varying => "varying",
+            LanguageKind::Uniform if takes_uniforms && fills_size && is_size(b) => "resolution",
             LanguageKind::Uniform if takes_uniforms => "uniform",
             _ => return None,
         };

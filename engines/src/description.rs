@@ -166,6 +166,16 @@ impl ShaderDescription {
     }
 }
 
+/// Source of the target's size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SizeSource {
+    /// The templates fill it: it is `resolution` of the context, and not among the uniforms.
+    Filled,
+    /// The user sets it, as any other uniform.
+    Set,
+}
+
 /// Limits of an engine's bindings. An omitted field sets no limit unless its own documentation states one; buffers,
 /// interpolated values and optional device features must be named.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -198,6 +208,9 @@ pub struct Limits {
     /// True if storage buffers can be bound.
     #[serde(default)]
     pub buffers: bool,
+    /// Source of the target's size, for kernels that need it and bind no texture of that size. Without one they are refused.
+    #[serde(default)]
+    pub resolution: Option<SizeSource>,
     /// `true` if the host's vertex shader outputs interpolated values.
     #[serde(default)]
     pub varyings: bool,

@@ -1,13 +1,13 @@
 //! An engine: its folder, and the files that it makes of a kernel.
 
 use crate::context::{self, Context};
-use crate::description::{Description, ShaderDescription};
+use crate::description::{Description, ShaderDescription, SizeSource};
 use crate::error::EngineError;
 use crate::fits::Misfit;
 use crate::{builtin, engine_names, fits, spelling};
 use std::collections::BTreeMap;
 use std::path::Path;
-use straightline_codegen::diagnostic::{Code, Diagnostic, Errors};
+use straightline_codegen::diagnostic::{Diagnostic, Errors};
 use straightline_codegen::emit::{Emitted, Target, single_line_comment};
 use straightline_codegen::{Compiled, EmitOptions, OptionInfo, Stage};
 use straightline_manifest::Manifest;
@@ -131,6 +131,10 @@ impl Engine {
         }
         let each = self.description.shaders.iter().map(|(name, description)| {
             let shader = Shader::from_request(&self.description, description, request, &manifest)?;
+            // An origin at the lower left needs the size where the kernel does not.
+            if let Some(misfit) = fits::find_unknown_size(&shader.manifest, limits, &self.description.title) {
+                return Err(Unfit::Engine(misfit));
+            }
             Ok((name.clone(), shader))
         });
         each.collect()
@@ -151,6 +155,7 @@ impl Engine {
             picture: None,
             samplers: Vec::new(),
             uniforms: Vec::new(),
+            resolution: None,
             block: None,
             outputs: Vec::new(),
             shaders: BTreeMap::new(),
@@ -166,6 +171,12 @@ impl Engine {
             (context.uniforms, context.block) = context::uniform_contexts(manifest, request.options);
             context.outputs = context::output_contexts(manifest);
         }
+        let fills_size = self.description.limits.resolution == Some(SizeSource::Filled);
+        if fills_size {
+            let mut sized = shaders.values().map(|shader| context::size_context(&shader.manifest));
+            context.resolution = sized.find_map(|size| size);
+            context.uniforms.retain(|uniform| !uniform.is_size);
+        }
         let changed = compiled
             .changed
             .iter()
@@ -178,7 +189,7 @@ impl Engine {
             .map(|(name, shader)| {
                 (
                     name,
-                    context::shader_context(shader.text, shader.takes_uniforms, &shader.manifest),
+                    context::shader_context(shader.text, shader.takes_uniforms, fills_size, &shader.manifest),
                 )
             })
             .collect();
@@ -261,8 +272,8 @@ impl Unfit {
         let compiled = request.compiled;
         let what = format!("`{}` does not fit {}", compiled.kernel, engine.description.title);
         match self {
-            Unfit::Engine(Misfit { why, input }) => {
-                let error = Diagnostic::new(Code::EngineUnfit, format!("{what}: it {why}")).help(instead);
+            Unfit::Engine(Misfit { why, input, code }) => {
+                let error = Diagnostic::new(code, format!("{what}: it {why}")).help(instead);
                 compiled.locate_error(error, input.as_deref())
             }
             Unfit::Emit(mut errors) => {

@@ -1,7 +1,8 @@
 //! Checks whether a kernel fits an engine.
 
-use crate::description::Limits;
-use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, SamplerType};
+use crate::description::{Limits, SizeSource};
+use straightline_codegen::diagnostic::Code;
+use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, SamplerType, UniformField};
 
 /// Reason why a kernel does not fit an engine.
 pub struct Misfit {
@@ -9,18 +10,25 @@ pub struct Misfit {
     pub why: String,
     /// Name of the input that does not fit, if it is one.
     pub input: Option<String>,
+    /// Kind of error.
+    pub code: Code,
 }
 
 impl Misfit {
     /// A misfit of the kernel as a whole.
     pub fn new(why: String) -> Misfit {
-        Misfit { why, input: None }
+        Misfit {
+            why,
+            input: None,
+            code: Code::EngineUnfit,
+        }
     }
 
     fn of_input(input: &str, why: String) -> Misfit {
         Misfit {
             why,
             input: Some(input.to_owned()),
+            code: Code::EngineUnfit,
         }
     }
 }
@@ -83,12 +91,14 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misf
             }
             BindingKind::Buffer { .. } => {}
             BindingKind::Uniform { fields, .. } => {
-                uniforms += fields.len() as u32;
+                if let Some(misfit) = find_unknown_size(manifest, limits, title) {
+                    return Some(misfit);
+                }
+                let filled = |field: &UniformField| field.frame_size && limits.resolution == Some(SizeSource::Filled);
+                let fields = || fields.iter().filter(|field| !filled(field));
+                uniforms += fields().count() as u32;
                 let types = limits.uniform_types.clone().unwrap_or_else(settable_types);
-                if let Some(field) = fields
-                    .iter()
-                    .find(|field| !contains_name(&types, &field.ty.to_string()))
-                {
+                if let Some(field) = fields().find(|field| !contains_name(&types, &field.ty.to_string())) {
                     let (field, ty) = (&field.name, &field.ty);
                     let why = format!(
                         "has the uniform `{field}` of type {ty}, and {title} takes {}",
@@ -124,6 +134,22 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misf
         Misfit::new(format!(
             "needs the device feature `{feature}`, which {title} is not asked for"
         ))
+    })
+}
+
+/// Returns the misfit of a shader that needs the target's size, in an engine without a source for it.
+pub fn find_unknown_size(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misfit> {
+    let needs_size = manifest.bindings.iter().any(|binding| match &binding.kind {
+        BindingKind::Uniform { fields, .. } => fields.iter().any(|field| field.frame_size),
+        _ => false,
+    });
+    let why = format!(
+        "needs the target's size, and {title} gives only the sizes of textures: take the picture as a `Frame`, which has that size"
+    );
+    (needs_size && limits.resolution.is_none()).then_some(Misfit {
+        why,
+        input: None,
+        code: Code::FrameSize,
     })
 }
 

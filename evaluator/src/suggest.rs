@@ -1,13 +1,16 @@
 //! Names that were meant.
 
-/// Help for an unknown name: the name that was probably meant, or the known ones.
+/// Help for an unknown name: the name that was probably meant, or the known ones, nearest first.
 pub fn suggest_name(name: &str, known: &[&str], has: &str) -> String {
     match known.iter().find(|k| **k != name && is_close(name, k)) {
         Some(close) => format!("did you mean `{close}`?"),
         None if known.is_empty() => "check its name".to_owned(),
         None => {
             let more = if known.len() > 12 { ", ..." } else { "" };
-            format!("{has} {}{more}", known[..known.len().min(12)].join(", "))
+            let mut nearest = known.to_vec();
+            nearest.sort_by_key(|known| edit_distance(name, known));
+            nearest.truncate(12);
+            format!("{has} {}{more}", nearest.join(", "))
         }
     }
 }

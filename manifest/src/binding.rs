@@ -94,6 +94,7 @@ pub fn region_fields() -> Vec<UniformField> {
         size: 8,
         default: None,
         part: None,
+        frame_size: false,
     };
     (0..).zip(["first", "size", "place"]).map(field).collect()
 }
@@ -117,6 +118,14 @@ pub struct UniformField {
     /// For a matrix or an array of the kernel: the part of it that this field holds. Unread parts have no field.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<Part>,
+    /// `true` if the field holds the width and height of the frame: the host sets it to the target's size. A shader has such a
+    /// field if it needs that size, and neither a texture nor an output of its own has it.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub frame_size: bool,
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// A part of a value that has no field of its own: a column of a matrix, or an element of an array.

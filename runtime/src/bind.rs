@@ -5,8 +5,9 @@ use crate::error::ViewProblem;
 use crate::guard::run_guarded;
 use crate::inputs::{arrange_inputs, check_inputs, check_targets, find_shared, frame_size, is_one_image, texture_size};
 use crate::pipeline::Pipeline;
+use crate::plan::StagePlan;
 use crate::targets::Targets;
-use crate::uniforms::Uniforms;
+use crate::uniforms::{Uniforms, frame_option};
 use crate::{BindOptions, Error, Pass, Region, Resource};
 use std::sync::Arc;
 use wgpu::TextureView;
@@ -34,9 +35,10 @@ impl Pass {
     /// - A buffer has [`STORAGE`](wgpu::BufferUsages::STORAGE) usage and room for at least one element. It is bound whole,
     ///   so its size determines the number of elements. A buffer that the kernel writes keeps its unwritten elements, and
     ///   must not be one that it reads. For a kernel that only writes buffers, pass no targets, `&[]`; it runs over its
-    ///   inputs.
+    ///   inputs of the frame's size. Without such an input it runs over the grid that the uniform `resolution` sets, a
+    ///   `[u32; 2]`.
     ///
-    /// All targets have the same size. Each has the format that [`targets`](Self::targets) returns, and
+    /// All targets have the same size, and a uniform `resolution` of the frame's size always holds it. Each has the format that [`targets`](Self::targets) returns, and
     /// [`STORAGE_BINDING`](wgpu::TextureUsages::STORAGE_BINDING) usage for compute or
     /// [`RENDER_ATTACHMENT`](wgpu::TextureUsages::RENDER_ATTACHMENT) for fragment.
     ///
@@ -83,14 +85,16 @@ impl Pass {
             .check(&self.device, &format!("binding `{}`", self.plan.kernel))?;
         let resources = arrange_inputs(&self.plan, &inputs)?;
         check_targets(&self.plan, &self.formats, &self.abilities, &targets)?;
-        let whole = self.computed_size(&resources, &targets)?;
+        let whole = self.computed_size(&resources, &targets, options)?;
+        self.check_grid(whole, targets.is_empty())?;
         let rectangle = self.choose_region(&resources, whole, options.region)?;
         let frame = match self.plan.region {
             Some(_) => frame_size(&self.plan, &resources),
             None => None,
         };
         check_inputs(&self.plan, &self.abilities, &resources, frame.unwrap_or(whole))?;
-        let uniforms = Uniforms::new(&self.device, &self.plan, options)?;
+        let size = targets.first().map(|target| texture_size(target.texture()));
+        let uniforms = Uniforms::new(&self.device, &self.plan, options, size)?;
         let buffer = match self.plan.region {
             Some(_) => Some(rectangle.create_buffer(&self.device, &self.plan.kernel)?),
             None => None,
@@ -135,17 +139,44 @@ impl Pass {
         })
     }
 
-    /// Returns the size of the computation: that of the targets, or of the inputs for a kernel without targets.
-    fn computed_size(&self, resources: &[Resource<'_>], targets: &[&TextureView]) -> Result<[u32; 2], Error> {
+    /// Returns the size of the computation: that of the targets. For a kernel without targets it is that of the inputs, or the
+    /// uniform `resolution`.
+    fn computed_size(
+        &self,
+        resources: &[Resource<'_>],
+        targets: &[&TextureView],
+        options: &BindOptions<'_>,
+    ) -> Result<[u32; 2], Error> {
         let of_inputs = || frame_size(&self.plan, resources);
         let whole = targets
             .first()
             .map(|target| texture_size(target.texture()))
             .or_else(of_inputs);
+        let whole = match whole {
+            Some(whole) => Some(whole),
+            None => frame_option(&self.plan, options)?,
+        };
         whole.ok_or_else(|| Error::BadManifest {
             kernel: self.plan.kernel.to_string(),
             place: "output".to_owned(),
             problem: "nothing is given, and no input has a size that tells how many pixels there are".to_owned(),
+        })
+    }
+
+    /// Checks that one dispatch covers the grid of a kernel without targets, which the caller may have set.
+    fn check_grid(&self, whole: [u32; 2], is_grid: bool) -> Result<(), Error> {
+        let StagePlan::Compute { workgroup } = self.plan.stage else {
+            return Ok(());
+        };
+        let most = [0, 1].map(|axis| self.abilities.most_pixels(workgroup[axis] * self.plan.block[axis]));
+        let fits = (0..2).all(|axis| (1..=most[axis]).contains(&whole[axis]));
+        if fits || !is_grid {
+            return Ok(());
+        }
+        Err(Error::Region {
+            kernel: self.plan.kernel.to_string(),
+            region: Region::at([0, 0], whole),
+            problem: format!("a dispatch of this device has 1x1 to {}x{} pixels", most[0], most[1]),
         })
     }
 

@@ -185,7 +185,10 @@ fn resource(name: &str, kind: &BindingKind, inputs: &Inputs) -> Result<Resource,
 fn uniform(size: u32, fields: &[UniformField], inputs: &Inputs) -> Result<Vec<u8>, String> {
     let mut bytes = vec![0; size as usize];
     for field in fields.iter().filter(|field| field.ty.is_single()) {
-        let given = find(&inputs.uniforms, &field.name).cloned();
+        let given = match field.frame_size {
+            true => Some(inputs.size.to_array().map(f64::from).to_vec()),
+            false => find(&inputs.uniforms, &field.name).cloned(),
+        };
         let numbers = given.or_else(|| field.default.map(|default| vec![default]));
         let numbers = numbers.ok_or_else(|| format!("nothing is given for `{}`", field.name))?;
         let own = number_bytes(field.ty, &numbers);

@@ -621,7 +621,9 @@ fn uniform_values(manifest: &Manifest, inputs: &Inputs) -> Vec<(String, UniformV
             && !binding.is_region()
         {
             for field in fields {
-                if let Some(numbers) = find_entry(&inputs.uniforms, &field.name) {
+                if field.frame_size {
+                    uniforms.push((field.name.clone(), UniformValue::from(inputs.size.to_array())));
+                } else if let Some(numbers) = find_entry(&inputs.uniforms, &field.name) {
                     uniforms.push((field.name.clone(), convert::uniform_value(field.ty, numbers)));
                 }
             }

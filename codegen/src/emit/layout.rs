@@ -21,6 +21,7 @@ pub fn layout_uniforms(uniforms: &[&Uniform]) -> (Vec<UniformField>, u32) {
                 ty: whole_type(uniform.ty, part),
                 index: part.index,
             }),
+            frame_size: false,
         });
         at += size;
     }

@@ -141,6 +141,7 @@ fn uniform_field(field: &Field) -> UniformField {
         size: field.ty.memory_layout().1,
         default: None,
         part: None,
+        frame_size: false,
     }
 }
 

@@ -8,6 +8,8 @@ pub const UNIFORMS: &str = "parameters";
 pub const SAMPLER: &str = "unfiltered";
 /// Name of the output of a kernel with a single value.
 pub const OUTPUT: &str = straightline_evaluator::ir::OutputTarget::DEFAULT_NAME;
+/// Name of the uniform that holds the frame's size.
+pub const RESOLUTION: &str = "resolution";
 /// Prefix for an output with the name of an input, in lists of both: `output.depth`.
 pub const OF_OUTPUT: &str = "output.";
 /// Name of the structure of several outputs.

@@ -4,7 +4,7 @@ use super::EmitOptions;
 use super::derived::{self, Combined, Derived, HostFunction};
 use super::layout::{layout_uniforms, value_type};
 use super::outputs::BoundOutput;
-use super::own_words::{OF_OUTPUT, OUTPUT, OUTPUTS, SAMPLER, UNIFORMS};
+use super::own_words::{OF_OUTPUT, OUTPUT, OUTPUTS, RESOLUTION, SAMPLER, UNIFORMS};
 use super::places::{Named, Places};
 use super::refusal::Refusal;
 use super::words::free_name;
@@ -13,8 +13,8 @@ use crate::spec::Target;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{
-    Access, Buffer, Element, Invocation, Memory, NodeId, Op, OutputTarget as Picture, Sampler, SharedArray, Structure,
-    Texture, Type, Uniform, Varying,
+    Access, Buffer, Element, Invocation, Memory, NodeId, Op, OutputTarget as Picture, Sampler, Scalar, SharedArray,
+    Structure, Texture, Type, Uniform, Varying,
 };
 use straightline_evaluator::passes::layers_read;
 use straightline_manifest::{REGION, Stage, UniformField};
@@ -85,6 +85,9 @@ pub struct Resources {
     pub fields: Vec<UniformField>,
     /// Size of the uniform buffer in bytes.
     pub uniform_size: u32,
+    /// Index of the uniform with the frame's size, which follows the kernel's own. `None` if a texture or an output in use has
+    /// that size, or the shader does not need it.
+    pub size_uniform: Option<u32>,
     /// `true` if the shader needs the frame's size.
     pub needs_frame: bool,
     /// `true` if lanes of quads communicate by quad operations.
@@ -219,13 +222,22 @@ impl Resources {
         let mut read_buffers = bound(graph.buffers.len(), &|k| ops.iter().any(|op| op.buffer() == Some(k)));
         let mut used_samplers = bound(graph.samplers.len(), &|k| ops.iter().any(|op| op.sampler() == Some(k)));
         let used = |k: u32| ops.iter().any(|op| **op == Op::Uniform(k));
-        let uniforms: Vec<&Uniform> = graph
+        let mut uniforms: Vec<&Uniform> = graph
             .uniforms
             .iter()
             .enumerate()
             .filter(|(k, _)| used(*k as u32))
             .map(|(_, u)| u)
             .collect();
+        let compute = options.stage == Stage::Compute;
+        let needs_frame = compute || options.counts_from_below() || ops.contains(&&Op::FrameSize);
+        let has_size = sized_by_output || read.iter().any(|bound| framed(&bound.index));
+        let skips_size = compute && options.region && !ops.contains(&&Op::FrameSize);
+        let size_field = match needs_frame && !has_size && !skips_size {
+            true => Some(size_field(compiled)?),
+            false => None,
+        };
+        uniforms.extend(&size_field);
         let uses = |k: u32| ops.iter().any(|op| op.memory() == Some(Memory::Shared(k)));
         let used_shared: Vec<u32> = (0..graph.shared.len() as u32).filter(|k| uses(*k)).collect();
         let entry = super::entry::resolve_entry_name(&compiled.kernel, options)?;
@@ -237,9 +249,10 @@ impl Resources {
         let used = |k: usize| ops.iter().any(|op| **op == Op::Varying(k as u32));
         let varyings = graph.varyings.iter().enumerate().filter(|(k, _)| used(*k));
         let varyings: Vec<Varying> = varyings.map(|(_, v)| v.clone()).collect();
-        let (fields, uniform_size) = layout_uniforms(&uniforms);
-        let compute = options.stage == Stage::Compute;
-        let needs_frame = compute || options.counts_from_below() || ops.contains(&&Op::FrameSize);
+        let (mut fields, uniform_size) = layout_uniforms(&uniforms);
+        if let (Some(_), Some(field)) = (&size_field, fields.last_mut()) {
+            field.frame_size = true;
+        }
         let named = |class: char, name: &str| Named {
             name: name.to_owned(),
             class,
@@ -322,7 +335,13 @@ impl Resources {
             textures: graph.textures.clone(),
             buffers: graph.buffers.clone(),
             samplers: graph.samplers.clone(),
-            uniform_names: graph.uniforms.iter().map(|u| u.name.clone()).collect(),
+            uniform_names: graph
+                .uniforms
+                .iter()
+                .chain(&size_field)
+                .map(|u| u.name.clone())
+                .collect(),
+            size_uniform: size_field.as_ref().map(|_| graph.uniforms.len() as u32),
             varying_names: graph.varyings.iter().map(|v| v.name.clone()).collect(),
             uniforms: uniforms.into_iter().cloned().collect(),
             read,
@@ -348,16 +367,6 @@ impl Resources {
         if options.stage == Stage::Fragment && resources.outputs.is_empty() {
             let what = format!("`{kernel}` gives nothing for a pixel, and a fragment shader gives a colour");
             return Err(Refusal::new(Code::StageUnfit, what).help("emit it for compute"));
-        }
-        let told = resources.frame_texture().is_some() || sized_by_output;
-        if needs_frame
-            && !told
-            && (options.stage == Stage::Fragment || !options.region || ops.contains(&&Op::FrameSize))
-        {
-            let what = format!("`{kernel}` needs the frame's size but reads no texture of that size");
-            return Err(Refusal::new(Code::FrameSize, what)
-                .note("only a compute shader with an output can know it then")
-                .help("emit a whole shader for compute, or take a `Frame`"));
         }
         Ok(resources)
     }
@@ -546,6 +555,35 @@ impl Resources {
             .find(|bound| bound.index == texture)
             .map(|bound| bound.binding)
     }
+}
+
+/// Returns the uniform that holds the frame's size, under a name that no input or output of the kernel has.
+fn size_field(compiled: &Compiled) -> Result<Uniform, Refusal> {
+    let graph = &compiled.graph;
+    let is_used = |name: &str| {
+        let mut names = graph
+            .textures
+            .iter()
+            .map(|texture| &texture.name)
+            .chain(graph.buffers.iter().map(|buffer| &buffer.name))
+            .chain(graph.samplers.iter().map(|sampler| &sampler.name))
+            .chain(graph.uniforms.iter().map(|uniform| &uniform.name))
+            .chain(
+                graph
+                    .uniforms
+                    .iter()
+                    .filter_map(|uniform| Some(&uniform.part.as_ref()?.of)),
+            )
+            .chain(graph.varyings.iter().map(|varying| &varying.name))
+            .chain(graph.written_targets().map(|target| &target.name));
+        names.any(|other| other == name)
+    };
+    Ok(Uniform {
+        name: free_name(&compiled.kernel, RESOLUTION, is_used)?,
+        ty: Type::value(Scalar::U32, 2),
+        default: None,
+        part: None,
+    })
 }
 
 /// Returns the HLSL register class of a buffer.

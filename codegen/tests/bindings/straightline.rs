@@ -398,6 +398,7 @@ pub mod all {
                                         offset: 0,
                                         default: None,
                                         part: None,
+                                        frame_size: false,
                                     },
                                 ],
                             ),
@@ -859,6 +860,7 @@ pub mod tile {
                                         offset: 0,
                                         default: None,
                                         part: None,
+                                        frame_size: false,
                                     },
                                 ],
                             ),
@@ -881,6 +883,7 @@ pub mod tile {
                                 offset: 0,
                                 default: None,
                                 part: None,
+                                frame_size: false,
                             },
                             FieldPlan {
                                 name: Borrowed("size"),
@@ -891,6 +894,7 @@ pub mod tile {
                                 offset: 8,
                                 default: None,
                                 part: None,
+                                frame_size: false,
                             },
                             FieldPlan {
                                 name: Borrowed("place"),
@@ -901,6 +905,7 @@ pub mod tile {
                                 offset: 16,
                                 default: None,
                                 part: None,
+                                frame_size: false,
                             },
                         ],
                     ),
@@ -1344,6 +1349,7 @@ pub mod graded {
                                             },
                                             index: 0,
                                         }),
+                                        frame_size: false,
                                     },
                                     FieldPlan {
                                         name: Borrowed("grade_y_axis"),
@@ -1361,6 +1367,7 @@ pub mod graded {
                                             },
                                             index: 1,
                                         }),
+                                        frame_size: false,
                                     },
                                     FieldPlan {
                                         name: Borrowed("grade_z_axis"),
@@ -1378,6 +1385,7 @@ pub mod graded {
                                             },
                                             index: 2,
                                         }),
+                                        frame_size: false,
                                     },
                                     FieldPlan {
                                         name: Borrowed("palette_0"),
@@ -1396,6 +1404,7 @@ pub mod graded {
                                             },
                                             index: 0,
                                         }),
+                                        frame_size: false,
                                     },
                                     FieldPlan {
                                         name: Borrowed("palette_1"),
@@ -1414,6 +1423,7 @@ pub mod graded {
                                             },
                                             index: 1,
                                         }),
+                                        frame_size: false,
                                     },
                                     FieldPlan {
                                         name: Borrowed("palette_2"),
@@ -1432,6 +1442,7 @@ pub mod graded {
                                             },
                                             index: 2,
                                         }),
+                                        frame_size: false,
                                     },
                                     FieldPlan {
                                         name: Borrowed("palette_3"),
@@ -1450,6 +1461,7 @@ pub mod graded {
                                             },
                                             index: 3,
                                         }),
+                                        frame_size: false,
                                     },
                                     FieldPlan {
                                         name: Borrowed("weights_2"),
@@ -1465,6 +1477,7 @@ pub mod graded {
                                             },
                                             index: 2,
                                         }),
+                                        frame_size: false,
                                     },
                                     FieldPlan {
                                         name: Borrowed("offset"),
@@ -1475,6 +1488,7 @@ pub mod graded {
                                         offset: 112,
                                         default: None,
                                         part: None,
+                                        frame_size: false,
                                     },
                                     FieldPlan {
                                         name: Borrowed("steps"),
@@ -1482,6 +1496,7 @@ pub mod graded {
                                         offset: 120,
                                         default: None,
                                         part: None,
+                                        frame_size: false,
                                     },
                                 ],
                             ),
@@ -1727,6 +1742,7 @@ pub mod drawn {
                                         offset: 0,
                                         default: None,
                                         part: None,
+                                        frame_size: false,
                                     },
                                 ],
                             ),
@@ -2165,6 +2181,7 @@ pub mod waiting {
                                         offset: 0,
                                         default: None,
                                         part: None,
+                                        frame_size: false,
                                     },
                                 ],
                             ),
@@ -2455,6 +2472,7 @@ pub mod sraa {
                                         offset: 0,
                                         default: Some(500.0_f32.to_le_bytes()),
                                         part: None,
+                                        frame_size: false,
                                     },
                                 ],
                             ),

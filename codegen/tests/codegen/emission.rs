@@ -305,7 +305,6 @@ fn every_kernel_is_read_in_the_languages_of_opengl() {
                         read += 1;
                     }
                     Err(error) if error.first_code() == Some(Code::NotInTarget) => missing += 1,
-                    Err(error) if error.first_code() == Some(Code::FrameSize) => {}
                     Err(error) => panic!("{name} {target}: {error}"),
                 }
             }
@@ -342,12 +341,7 @@ fn basic_blocks_are_those_of_the_spirv() {
         let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
         for stage in [Stage::Compute, Stage::Fragment] {
             let options = EmitOptions::new().targets(compilers::READ).stage(stage);
-            let emitted = match compiled.emit(&options) {
-                Ok(emitted) => emitted,
-                // No texture of the frame's size tells a fragment of it.
-                Err(error) if error.first_code() == Some(Code::FrameSize) => continue,
-                Err(error) => panic!("{error}"),
-            };
+            let emitted = compiled.emit(&options).unwrap_or_else(|e| panic!("{e}"));
             read(&emitted).unwrap_or_else(|e| panic!("{name}: {e}"));
             let labels = instructions(&words(&emitted), LABEL).len();
             let wgsl = text(&emitted, Target::Wgsl);

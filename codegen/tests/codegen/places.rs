@@ -3,7 +3,6 @@
 use crate::compilers;
 
 use compilers::read;
-use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Manifest, Origin, Precision, Settings, Stage};
 use straightline_manifest::{LanguageKind, hash_of_text};
@@ -458,12 +457,6 @@ fn what_cannot_be_a_function_is_refused() {
     refused(&takes, &workgroup, &["no workgroup"]);
     let subgroups = function().enable_subgroups(true);
     refused(&takes, &subgroups, &["`enable subgroups;`"]);
-    let sized = kernel(
-        "pub fn sized(resolution: UVec2, pixel: IVec2) -> Vec4 {\n    Vec4::splat(resolution.x as f32)\n}\n",
-        "sized",
-    );
-    let code = sized.emit(&function()).err().and_then(|errors| errors.first_code());
-    assert_eq!(code, Some(Code::FrameSize));
 }
 
 #[test]

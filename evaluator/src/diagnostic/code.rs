@@ -125,7 +125,7 @@ codes! {
     UnfitSetting = "E0606", "a setting that this kernel cannot have";
 
     VisibleLoss = "E0701", "half precision with a visible loss";
-    FrameSize = "E0702", "a frame's size that nothing tells";
+    FrameSize = "E0702", "an engine that does not give the target's size";
     StageUnfit = "E0703", "a stage or form that cannot run the kernel";
     RegionUnfit = "E0704", "a region of a kernel that needs the whole frame";
     NotInTarget = "E0705", "a language without what the kernel needs";

@@ -4,6 +4,7 @@ use super::departures::Tail;
 use super::value::{ConstantDemand, Eval, Exit, Jump, Value};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::instead::{Receiver, find_text};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType, generic_arguments};
 use crate::ir::{Naming, NodeId, Op, Scalar, Type};
 use std::borrow::Cow;
@@ -211,6 +212,10 @@ impl<'a> Evaluator<'a> {
         let help = match close {
             Some(close) => format!("did you mean `{close}`?"),
             None => "define it in one of the kernel's files, or use a function of the prelude".to_owned(),
+        };
+        let help = match path {
+            [.., ty, name] if ty == "Quat" => find_text(Receiver::Quaternion, name).unwrap_or(help),
+            _ => help,
         };
         Diagnostic::error_at(Code::UnknownFunction, span, format!("there is no function `{name}`"))
             .label("not found in the kernel's files")

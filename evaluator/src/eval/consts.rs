@@ -23,8 +23,10 @@ impl Evaluator<'_> {
             let diagonal = match name {
                 "IDENTITY" => one,
                 "ZERO" => zero,
+                "NAN" => self.builder.f32(f32::NAN),
                 _ => return None,
             };
+            let zero = if name == "NAN" { diagonal } else { zero };
             let columns: Vec<_> = (0..n)
                 .map(|c| {
                     let parts: Vec<_> = (0..n).map(|r| if r == c { diagonal } else { zero }).collect();
@@ -60,6 +62,13 @@ impl Evaluator<'_> {
             Some(rest) if matches!(kind, Scalar::F32 | Scalar::I32) => (true, rest),
             _ => (false, name),
         };
+        if name == "AXES" && kind != Scalar::Bool {
+            let axes = ["X", "Y", "Z", "W"].into_iter().take(lanes.into());
+            return axes
+                .map(|axis| self.vector_constant(kind, lanes, axis))
+                .collect::<Option<_>>()
+                .map(Value::array);
+        }
         let one = match (kind, negated) {
             (Scalar::F32, false) => 1.0f32.to_bits(),
             (Scalar::F32, true) => (-1.0f32).to_bits(),

@@ -3,6 +3,7 @@
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::instead::{Receiver, find_text};
 use crate::ir::{BinaryOp, Op};
 
 /// Methods of iterators.
@@ -206,7 +207,7 @@ impl Evaluator<'_> {
                     .collect();
                 let inlined = |this: &mut Self| this.inline_function(&format!("Iterator::{name}"), &[], all, span);
                 match name {
-                    "take_while" | "skip_while" => self.at_once(name, span, inlined),
+                    "take_while" | "skip_while" | "map_while" | "rposition" => self.at_once(name, span, inlined),
                     _ => inlined(self),
                 }
             }
@@ -216,7 +217,10 @@ impl Evaluator<'_> {
                 format!("an iterator has no method `{name}` here"),
             )
             .label("not supported")
-            .help(crate::suggest::suggest_name(name, &METHODS, "iterators have"))
+            .help(
+                find_text(Receiver::List, name)
+                    .unwrap_or_else(|| crate::suggest::suggest_name(name, &METHODS, "iterators have")),
+            )
             .into()),
         }
     }

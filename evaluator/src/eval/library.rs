@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{Op, Scalar, Type};
 
 impl Evaluator<'_> {
-    /// Evaluates `mem::swap(&mut a, &mut b)` or `mem::replace(&mut a, b)`; `None` for any other function.
+    /// Evaluates `mem::swap`, `mem::replace` or `mem::take`; `None` for any other function.
     pub fn eval_mem_call(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
         let name = path.last().map(String::as_str).unwrap_or_default();
         match (name, values) {
@@ -26,6 +26,21 @@ impl Evaluator<'_> {
                 let old = self.read_place(&place, span)?;
                 let value = self.deref_value(value.clone(), span)?;
                 self.write_place(&place, value, span)?;
+                Ok(Some(old))
+            }
+            ("take", [Value::Ref(place)]) => {
+                let place = self.follow_references((**place).clone(), span)?;
+                let old = self.read_place(&place, span)?;
+                let Value::Node(id) = &old else {
+                    let error =
+                        Diagnostic::error_at(Code::UnknownFunction, span, "`mem::take` takes numbers and vectors")
+                            .label("another type")
+                            .help("write `std::mem::replace(&mut x, T::default())`");
+                    return Err(error.into());
+                };
+                let ty = self.ty(*id);
+                let zero = self.builder.constant(ty, [0; 4]);
+                self.write_place(&place, Value::Node(zero), span)?;
                 Ok(Some(old))
             }
             _ => Ok(None),

@@ -32,7 +32,7 @@ impl Evaluator<'_> {
                 self.in_order(low, high, span)?;
                 Some(self.builder.add(Op::Clamp, [x, low, high], ty))
             }
-            [to, amount] if name == "lerp" => {
+            [to, amount] if name == "lerp" && !self.ty(x).is_scalar() => {
                 // As in glam: self * (1 - s) + to * s.
                 let one = Value::Node(self.builder.f32(1.0));
                 let rest = self.eval_binary(BinaryOp::Sub, &one, amount, span)?;

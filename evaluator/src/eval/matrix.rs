@@ -3,6 +3,7 @@
 use super::Evaluator;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::instead::{Receiver, find_text};
 use crate::front::name::Name;
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
 
@@ -251,8 +252,9 @@ fn unknown_method(ty: &str, name: &str, span: Span) -> Diagnostic {
         format!("a {ty} has no `{name}` with such arguments"),
     )
     .label("not supported")
-    .help(
+    .help(find_text(Receiver::Matrix, name).unwrap_or_else(|| {
         "matrices have from_cols, from_diagonal, IDENTITY, x_axis .. w_axis, col, transpose, mul_vec3, \
-             transform_point3, transform_vector3, and `*` with vectors, matrices and numbers",
-    )
+             transform_point3, transform_vector3, and `*` with vectors, matrices and numbers"
+            .to_owned()
+    }))
 }

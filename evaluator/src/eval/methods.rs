@@ -4,6 +4,7 @@ use super::Evaluator;
 use super::objects::OBJECT;
 use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::instead::{Receiver, find_text};
 use crate::front::tree::{Expr, Function};
 use crate::ir::BinaryOp;
 use std::rc::Rc;
@@ -82,8 +83,16 @@ impl<'a> Evaluator<'a> {
                 let prefix = format!("{ty}::");
                 let functions = self.library.functions.keys();
                 let mut names: Vec<&str> = functions.filter_map(|f| f.strip_prefix(prefix.as_str())).collect();
+                names.extend(crate::front::std::function_names(ty));
                 names.sort_unstable();
+                names.dedup();
+                let is_choice = matches!(ty.as_str(), "Option" | "Result");
+                let instead = match ty.as_str() {
+                    "Quat" => find_text(Receiver::Quaternion, name),
+                    _ => find_text(Receiver::Choice, name).filter(|_| is_choice),
+                };
                 let help = match names.is_empty() {
+                    _ if instead.is_some() => instead.unwrap_or_default(),
                     true => format!("it has none: write it in an `impl {ty}`"),
                     false => crate::suggest::suggest_name(name, &names, "it has"),
                 };

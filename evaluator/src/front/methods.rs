@@ -1,5 +1,6 @@
 //! The methods of numbers and vectors by their names, and those that Rust and shaders compute differently.
 
+use super::instead::{Receiver, find_text};
 use crate::ir::{Scalar, Type};
 
 /// Methods of floats, component by component.
@@ -93,12 +94,12 @@ fn method_lists(ty: Type) -> &'static [&'static [&'static str]] {
 
 /// Help for a method that does not exist.
 pub fn known_methods(name: &str, ty: Type) -> String {
-    let known: Vec<&str> = method_lists(ty).concat();
-    let close = crate::suggest::suggest_name(name, &known, "");
-    if close.starts_with("did you mean") {
-        return close;
+    if let Some(text) = find_text(Receiver::Number, name) {
+        return text;
     }
-    format!("{} has {}", ty.in_rust(), known.join(", "))
+    let mut known: Vec<&str> = method_lists(ty).concat();
+    known.extend(super::std::function_names(&ty.in_rust()));
+    crate::suggest::suggest_name(name, &known, &format!("{} has", ty.in_rust()))
 }
 
 /// Returns whether numbers or vectors of a type have a method here.

@@ -16,6 +16,7 @@ mod foreign;
 #[cfg(test)]
 mod fuzz;
 mod inner;
+pub mod instead;
 mod items;
 mod kernels;
 mod literal;
@@ -55,16 +56,22 @@ pub use tree::Library;
 pub use whiles::guard_body;
 
 /// Methods of arrays in the library that change their receiver.
-pub const CHANGING: [&str; 9] = [
+pub const CHANGING: [&str; 15] = [
+    "clone_from_slice",
     "copy_from_slice",
     "fill",
+    "fill_with",
     "reverse",
+    "rotate_left",
+    "rotate_right",
     "sort",
     "sort_by",
     "sort_by_key",
     "sort_unstable",
     "sort_unstable_by",
+    "sort_unstable_by_key",
     "swap",
+    "swap_with_slice",
 ];
 
 /// Functions of the prelude that take a float or a vector and give one of its type, and do for a closure by their names.

@@ -3,8 +3,10 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Expr, ExprKind, Function};
-use crate::ir::Scalar;
+use crate::front::instead::{Receiver, find_text, find_type};
+use crate::front::methods;
+use crate::front::tree::{Expr, ExprKind, Function, IntType};
+use crate::ir::{Scalar, Type};
 use std::collections::HashMap;
 
 /// Shading languages' names for differences between the pixels of a quad.
@@ -25,6 +27,22 @@ const DERIVATIVES: [&str; 16] = [
     "ddx_fine",
     "ddy_fine",
     "dpdx_fine",
+];
+
+/// Methods of matrices that are not text of the kernel language.
+const MATRIX_METHODS: [&str; 12] = [
+    "col",
+    "from_cols",
+    "from_diagonal",
+    "mul_mat2",
+    "mul_mat3",
+    "mul_mat4",
+    "mul_vec2",
+    "mul_vec3",
+    "mul_vec4",
+    "transform_point3",
+    "transform_vector3",
+    "transpose",
 ];
 
 impl<'l> Checker<'l> {
@@ -288,6 +306,37 @@ impl<'l> Checker<'l> {
 
     /// A method called by its path: the receiver is the first argument.
     fn by_path(&mut self, receiver: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
+        let ty = match receiver {
+            Ty::Vector(kind, lanes) => Some(Type::value(*kind, *lanes)),
+            Ty::Float => Some(Type::F32),
+            Ty::Int(IntType::U32) => Some(Type::U32),
+            Ty::Int(IntType::Usize) => Some(Type::USIZE),
+            Ty::Int(_) => Some(Type::I32),
+            _ => None,
+        };
+        let is_swizzle = name.chars().all(|c| matches!(c, 'x' | 'y' | 'z' | 'w'));
+        let is_known = match ty {
+            Some(ty) => {
+                let unlike = methods::UNLIKE.iter().any(|(unlike, ..)| *unlike == name);
+                methods::has_method(ty, name) || unlike || is_swizzle || name.starts_with("as_")
+            }
+            None => MATRIX_METHODS.contains(&name),
+        };
+        if !is_known && name != "default" {
+            self.infer_loose_args(args);
+            let help = match ty {
+                Some(ty) => methods::known_methods(name, ty),
+                None => find_text(Receiver::Matrix, name)
+                    .unwrap_or_else(|| crate::suggest::suggest_name(name, &MATRIX_METHODS, "matrices have")),
+            };
+            let message = format!("there is no function `{receiver}::{name}`");
+            self.errors.push(
+                Diagnostic::error_at(Code::UnknownFunction, span, message)
+                    .label("not found")
+                    .help(help),
+            );
+            return Ty::Unknown;
+        }
         match args {
             [first, rest @ ..] => {
                 self.check_expr(first, receiver);
@@ -349,6 +398,12 @@ impl<'l> Checker<'l> {
                 self.takes_both(a, b, &of, &of);
                 Ty::UNIT
             }
+            (["mem", "take"] | ["take"], [place]) => {
+                let of = self.table.fresh(Kind::Any);
+                let found = self.infer_expr(place, None);
+                self.coerce(&Ty::Ref(true, Box::new(of.clone())), &found, place.span);
+                of
+            }
             (["mem", "replace"] | ["replace"], [place, value]) => {
                 let of = self.table.fresh(Kind::Any);
                 self.takes_both(place, value, &Ty::Ref(true, Box::new(of.clone())), &of);
@@ -388,10 +443,18 @@ impl<'l> Checker<'l> {
             self.errors.push(
                 Diagnostic::error_at(Code::UnknownType, span, format!("cannot find type `{ty}`"))
                     .label("not found in the kernel's files")
-                    .help(match types.iter().find(|known| crate::suggest::is_close(ty, known)) {
-                        Some(close) => format!("did you mean `{close}`?"),
-                        None => "define it in one of the kernel's files".to_owned(),
-                    }),
+                    .help(
+                        match types
+                            .iter()
+                            .filter(|_| find_type(ty).is_none())
+                            .find(|known| crate::suggest::is_close(ty, known))
+                        {
+                            Some(close) => format!("did you mean `{close}`?"),
+                            None => find_type(ty)
+                                .unwrap_or("define it in one of the kernel's files")
+                                .to_owned(),
+                        },
+                    ),
             );
         }
     }

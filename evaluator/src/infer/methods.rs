@@ -4,6 +4,7 @@ use super::Checker;
 use super::places::Access;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::instead::{Receiver, find_text};
 use crate::front::methods;
 use crate::front::tree::{Expr, IntType};
 use crate::ir::{Scalar, Type};
@@ -141,7 +142,12 @@ impl<'l> Checker<'l> {
                     "transpose" => self.check_arguments(args, &[], own),
                     "col" => self.check_arguments(args, &[Ty::USIZE], column),
                     "mul_vec2" | "mul_vec3" | "mul_vec4" => self.takes_own(args, column),
-                    "mul_mat2" | "mul_mat3" | "mul_mat4" => self.takes_own(args, own),
+                    "mul_mat2" | "mul_mat3" | "mul_mat4" if args.len() == 1 => {
+                        let found = self.infer_expr(&args[0], None);
+                        let found = self.peel_refs(&found).0;
+                        self.coerce(&own, &found, args[0].span);
+                        own
+                    }
                     "transform_point3" | "transform_vector3" => {
                         let point = Ty::Vector(Scalar::F32, 3);
                         self.takes_own(args, point)
@@ -195,6 +201,23 @@ impl<'l> Checker<'l> {
                 );
                 self.unknown_method(args)
             }
+            Ty::Array(_) if !matches!(name, "iter" | "iter_mut" | "into_iter" | "len" | "map") => {
+                let own = self
+                    .library
+                    .functions
+                    .keys()
+                    .filter_map(|key| key.strip_prefix("Array::"));
+                let known: Vec<&str> = own.chain(["iter", "len", "map", "windows", "chunks"]).collect();
+                let help = find_text(Receiver::List, name)
+                    .unwrap_or_else(|| crate::suggest::suggest_name(name, &known, "arrays and slices have"));
+                let message = format!("arrays and slices have no method `{name}`");
+                self.errors.push(
+                    Diagnostic::error_at(Code::UnknownMethod, span, message)
+                        .label("not there")
+                        .help(help),
+                );
+                self.unknown_method(args)
+            }
             Ty::Range(item) | Ty::Iter(item) => match name {
                 "rev" => self.check_arguments(args, &[], own),
                 "step_by" => self.check_arguments(args, &[Ty::USIZE], own),
@@ -229,6 +252,17 @@ impl<'l> Checker<'l> {
                     let function = &self.library.functions[&key];
                     let items = Ty::Array(item.clone());
                     self.infer_function_call(&key, function, &[], Some(&items), args, span)
+                }
+                _ if find_text(Receiver::List, name).is_some() => {
+                    let help = find_text(Receiver::List, name).unwrap_or_default();
+                    let message = format!("an iterator has no method `{name}` here");
+                    self.errors.push(
+                        Diagnostic::error_at(Code::UnknownMethod, span, message)
+                            .label("not supported")
+                            .help(help),
+                    );
+                    // Closures of such a method are not looked at.
+                    Ty::Unknown
                 }
                 _ => match self.infer_adaptor(item, name, args) {
                     Some(found) => found,
@@ -313,7 +347,7 @@ impl<'l> Checker<'l> {
         let float = Ty::Float;
         match name {
             "powf" | "atan2" | "min" | "max" => self.takes_own(args, float),
-            "clamp" | "mul_add" | "lerp" => self.check_arguments(args, &[float.clone(), float.clone()], float),
+            "clamp" | "mul_add" => self.check_arguments(args, &[float.clone(), float.clone()], float),
             "powi" => self.check_arguments(args, &[Ty::I32], float),
             "is_nan" | "is_finite" => self.check_arguments(args, &[], Ty::Bool),
             "to_bits" => self.check_arguments(args, &[], Ty::U32),

@@ -3,4 +3,5 @@
 mod cases;
 mod filetests;
 mod loops;
+mod names;
 mod verify;

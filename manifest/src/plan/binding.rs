@@ -2,7 +2,7 @@
 
 use super::read::require;
 use super::{BufferPlan, FieldPlan, PartPlan, TexturePlan};
-use crate::{Dimension, Element, Part, SampleType, UniformField};
+use crate::{Dimension, Element, Part, SampleType, Scalar, UniformField, ValueType};
 
 /// Checks a texture's numbers against one another and against the types that a shader can declare.
 pub(super) fn check_texture(plan: &TexturePlan) -> Result<(), String> {
@@ -94,6 +94,7 @@ pub(super) fn plan_field(field: &UniformField, block: u32) -> Result<FieldPlan, 
         size,
         default,
         part,
+        frame_size,
     } = field;
     require(ty.is_single(), || {
         format!("field `{name}` is of type `{ty}`, not a 32-bit scalar or vector")
@@ -125,6 +126,9 @@ pub(super) fn plan_field(field: &UniformField, block: u32) -> Result<FieldPlan, 
             format!("field `{name}` of type {ty} is no part {index} of `{of}` of type {whole}")
         })?;
     }
+    require(!frame_size || *ty == ValueType::of(Scalar::U32, 2), || {
+        format!("field `{name}` of type {ty} holds the frame's size, which is a vec2u")
+    })?;
     Ok(FieldPlan {
         name: name.clone().into(),
         ty: *ty,
@@ -135,5 +139,6 @@ pub(super) fn plan_field(field: &UniformField, block: u32) -> Result<FieldPlan, 
             ty: part.ty,
             index: part.index,
         }),
+        frame_size: *frame_size,
     })
 }

@@ -126,6 +126,8 @@ pub struct FieldPlan {
     pub default: Option<[u8; 4]>,
     /// The matrix or array that it is a part of.
     pub part: Option<PartPlan>,
+    /// `true` if the field holds the width and height of the frame.
+    pub frame_size: bool,
 }
 
 impl FieldPlan {

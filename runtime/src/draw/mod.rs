@@ -140,7 +140,8 @@ impl Draw {
     ///
     /// Textures that are read at the pixel must all have the size of the render pass, which is not known here. The render
     /// pass's attachments are not known either: if one of them is an input, wgpu reports that when the caller's encoder is
-    /// finished.
+    /// finished. A kernel with `resolution` and no texture of that size has it as the uniform `resolution`, a `[u32; 2]` that
+    /// the caller sets.
     ///
     /// # Errors
     ///
@@ -176,7 +177,7 @@ impl Draw {
         // Without a texture of the frame's size none is compared with it.
         let frame = frame_size(plan, &resources).unwrap_or_default();
         check_inputs(plan, &self.abilities, &resources, frame)?;
-        let uniforms = Uniforms::new(&self.device, plan, options)?;
+        let uniforms = Uniforms::new(&self.device, plan, options, None)?;
         let groups = self
             .layout
             .bind_resources(&self.device, plan, &uniforms, &resources, (&[], None))?;

@@ -34,6 +34,11 @@ impl Abilities {
             max_storage_binding: limits.max_storage_buffer_binding_size,
         }
     }
+
+    /// Most pixels along one axis that a dispatch covers, if a workgroup covers `each`.
+    pub(crate) fn most_pixels(&self, each: u32) -> u32 {
+        self.max_workgroups.saturating_mul(each)
+    }
 }
 
 /// The resources for `plan.inputs`, in that order: each exactly once, of its kind, and nothing else.

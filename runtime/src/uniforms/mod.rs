@@ -12,13 +12,27 @@ pub use value::{Component, UniformValue};
 pub(crate) struct Uniforms {
     /// Buffers, one for each struct of the plan, in its order.
     buffers: Vec<wgpu::Buffer>,
+    /// The frame's size as stored in its field, if the targets determine it: index of the struct, offset and bytes.
+    frame: Option<(usize, u32, [u8; 8])>,
 }
 
 impl Uniforms {
-    /// Buffers that hold the manifest's defaults and what `options` say. Filled while mapped, so that no queue is needed and the
-    /// first submission already sees them.
-    pub(crate) fn new(device: &wgpu::Device, plan: &Plan, options: &BindOptions<'_>) -> Result<Self, Error> {
-        let contents = initial_blocks(plan, options)?;
+    /// Buffers that hold the manifest's defaults, the values of `options`, and the size of the targets where they determine it.
+    /// Filled while mapped, so that no queue is needed and the first submission already sees them.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        plan: &Plan,
+        options: &BindOptions<'_>,
+        size: Option<[u32; 2]>,
+    ) -> Result<Self, Error> {
+        let frame = size.and_then(|[width, height]| {
+            let (block, offset) = frame_field(plan)?;
+            let mut bytes = [0; 8];
+            copy_bytes(&mut bytes, 0, &width.to_le_bytes());
+            copy_bytes(&mut bytes, 4, &height.to_le_bytes());
+            Some((block, offset, bytes))
+        });
+        let contents = initial_blocks(plan, options, frame)?;
         let buffers = plan.uniforms.iter().zip(contents).map(|(block, bytes)| {
             let refused = |description| Error::Pipeline {
                 kernel: plan.kernel.to_string(),
@@ -28,6 +42,7 @@ impl Uniforms {
         });
         Ok(Uniforms {
             buffers: buffers.collect::<Result<_, _>>()?,
+            frame,
         })
     }
 
@@ -46,13 +61,23 @@ impl Uniforms {
     ) -> Result<(), Error> {
         place_value(plan, name, value, |block, offset, bytes| {
             queue.write_buffer(&self.buffers[block], u64::from(offset), bytes);
-        })
+        })?;
+        self.restore_frame(queue);
+        Ok(())
     }
 
     /// Puts `bytes` at `offset` of the first struct, ahead of the queue's next submission.
     pub(crate) fn write_at(&self, queue: &wgpu::Queue, offset: u32, bytes: &[u8]) {
         if let Some(buffer) = self.buffers.first() {
             queue.write_buffer(buffer, u64::from(offset), bytes);
+        }
+        self.restore_frame(queue);
+    }
+
+    /// Puts the targets' size back into its field, which a caller's write of the whole struct covers.
+    fn restore_frame(&self, queue: &wgpu::Queue) {
+        if let Some((block, offset, bytes)) = &self.frame {
+            queue.write_buffer(&self.buffers[*block], u64::from(*offset), bytes);
         }
     }
 
@@ -61,6 +86,7 @@ impl Uniforms {
         for (buffer, bytes) in self.buffers.iter().zip(split_blocks(plan, bytes)?) {
             queue.write_buffer(buffer, 0, bytes);
         }
+        self.restore_frame(queue);
         Ok(())
     }
 }
@@ -92,8 +118,35 @@ pub(crate) fn filled_buffer(
     Ok(buffer)
 }
 
-/// Initial bytes of the structs of `plan`. A field without a value is an error.
-fn initial_blocks(plan: &Plan, options: &BindOptions<'_>) -> Result<Vec<Vec<u8>>, Error> {
+/// Returns the struct and the offset of the field with the frame's size.
+fn frame_field(plan: &Plan) -> Option<(usize, u32)> {
+    let mut blocks = plan.uniforms.iter().enumerate();
+    blocks.find_map(|(block, uniform)| {
+        let field = uniform.fields.iter().find(|field| field.frame_size)?;
+        Some((block, field.offset))
+    })
+}
+
+/// Returns the frame's size as `options` set it, for a kernel without targets and without textures of that size.
+pub(crate) fn frame_option(plan: &Plan, options: &BindOptions<'_>) -> Result<Option<[u32; 2]>, Error> {
+    let Some((block, offset)) = frame_field(plan) else {
+        return Ok(None);
+    };
+    let blocks = initial_blocks(plan, options, None)?;
+    let word = |at: u32| {
+        let at = at as usize;
+        let bytes = blocks[block].get(at..at + 4)?;
+        Some(u32::from_le_bytes(bytes.try_into().ok()?))
+    };
+    Ok(word(offset).zip(word(offset + 4)).map(<[u32; 2]>::from))
+}
+
+/// Initial bytes of the structs of `plan`, with `frame` as the targets' size. A field without a value is an error.
+fn initial_blocks(
+    plan: &Plan,
+    options: &BindOptions<'_>,
+    frame: Option<(usize, u32, [u8; 8])>,
+) -> Result<Vec<Vec<u8>>, Error> {
     let mut blocks: Vec<Vec<u8>> = plan.uniforms.iter().map(|block| vec![0; block.size as usize]).collect();
     let mut missing: Vec<(usize, u32)> = Vec::new();
     for (k, block) in plan.uniforms.iter().enumerate() {
@@ -115,6 +168,10 @@ fn initial_blocks(plan: &Plan, options: &BindOptions<'_>) -> Result<Vec<Vec<u8>>
             copy_bytes(&mut blocks[block], offset, bytes);
             missing.retain(|place| *place != (block, offset));
         })?;
+    }
+    if let Some((block, offset, bytes)) = frame {
+        copy_bytes(&mut blocks[block], offset, &bytes);
+        missing.retain(|place| *place != (block, offset));
     }
     let unset = missing.first().and_then(|(block, offset)| {
         let mut fields = plan.uniforms[*block].fields.iter();

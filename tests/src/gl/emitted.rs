@@ -140,6 +140,7 @@ fn texture(
 fn value(field: &UniformField, inputs: &Inputs) -> Result<Uniform, String> {
     let given = inputs.uniforms.iter().find(|(name, _)| *name == field.name);
     let lanes = match (given, field.default) {
+        _ if field.frame_size => inputs.size.to_array().map(f64::from).to_vec(),
         (Some((_, lanes)), _) => lanes.clone(),
         (None, Some(default)) => vec![default],
         (None, None) => return Err(format!("the uniform `{}` is not set", field.name)),

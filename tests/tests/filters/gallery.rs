@@ -492,7 +492,7 @@ fn texts(path: &Path, (unroll, stage, form): (Unroll, Stage, Form)) -> usize {
             Err(errors)
                 if matches!(
                     errors.first_code(),
-                    Some(Code::NotInTarget | Code::FrameSize | Code::StageUnfit | Code::FunctionForm)
+                    Some(Code::NotInTarget | Code::StageUnfit | Code::FunctionForm)
                 ) =>
             {
                 return 0;

@@ -52,6 +52,7 @@ fn subjects() -> Vec<Subject> {
         Subject::new("fxaa", "kernels/filters/fxaa.rs", &[]),
         Subject::new("bilateral", "kernels/filters/bilateral.rs", &[("sigma", "uniform")]),
         Subject::new("pcf", "", &[]),
+        Subject::new("stretched", "tests/engines/kernels/stretched.rs", &[]),
     ]
 }
 

@@ -21,6 +21,7 @@ mod origin;
 mod outputs;
 mod passes;
 mod passthrough;
+mod resolution;
 mod shared;
 mod textures;
 mod workgroups;

@@ -107,6 +107,7 @@ fn quote_structure(of: &str, docs: &str, fields: &[UniformField], size: u32) -> 
         push_padding(&mut members, &mut pads, fields, field.offset - at);
         let (name, ty) = (rust_identifier(&field.name), stored_type(field.ty));
         let docs = match field.default {
+            _ if field.frame_size => "Width and height of the target; a bound pass sets them.".to_owned(),
             Some(default) => format!("`{}` of the kernel; {default} by default.", field.name),
             None => format!("`{}` of the kernel.", field.name),
         };

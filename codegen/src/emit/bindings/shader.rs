@@ -213,6 +213,7 @@ fn quote_field(field: &FieldPlan) -> TokenStream {
         offset,
         default,
         part,
+        frame_size,
     } = field;
     let offset = Literal::u32_unsuffixed(*offset);
     let default = quote_option(default.map(|word| {
@@ -224,7 +225,7 @@ fn quote_field(field: &FieldPlan) -> TokenStream {
         quote! { PartPlan { of: Borrowed(#of), ty: #ty, index: #index } }
     }));
     let ty = value_type(*ty);
-    quote! { FieldPlan { name: Borrowed(#name), ty: #ty, offset: #offset, default: #default, part: #part } }
+    quote! { FieldPlan { name: Borrowed(#name), ty: #ty, offset: #offset, default: #default, part: #part, frame_size: #frame_size } }
 }
 
 /// Returns a number with these bits, in a form that a method call can follow.

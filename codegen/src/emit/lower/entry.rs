@@ -186,8 +186,9 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
                 let_statement(VarId::WITHIN, invocation),
                 outside(VarId::WITHIN, builtin_expr(Builtin::RegionSize)),
             ];
-            // Without a texture or an output the frame's size is unknown, and unused.
-            if resources.frame_texture().is_some() || !resources.outputs.is_empty() {
+            // Without a texture, an output or a uniform of the frame's size, that size is unused.
+            let has_size = resources.frame_texture().is_some() || resources.size_uniform.is_some();
+            if has_size || !resources.outputs.is_empty() {
                 body.push(let_statement(VarId::FRAME, frame_size(resources)));
             }
             body.push(let_statement(VarId::PIXEL, pixel(local_variable(VarId::WITHIN))));
@@ -200,11 +201,19 @@ fn begin_compute(resources: &Resources) -> Block<'static> {
     }
 }
 
-/// Returns the frame's size: that of a texture with that size, or else of the output.
+/// Returns the frame's size: that of a texture with that size, or else of the output, or else the host's value.
 fn frame_size(resources: &Resources) -> Expr {
-    match resources.frame_texture() {
-        Some(texture) => Expr::new(Op::Ir(ir::Op::TextureSize(texture)), Vec::new(), IVEC2),
-        None => builtin_expr(Builtin::OutputSize),
+    match (resources.frame_texture(), resources.size_uniform) {
+        (Some(texture), _) => Expr::new(Op::Ir(ir::Op::TextureSize(texture)), Vec::new(), IVEC2),
+        (None, Some(uniform)) => {
+            let size = Expr::new(
+                Op::Ir(ir::Op::Uniform(uniform)),
+                Vec::new(),
+                Type::value(Scalar::U32, 2),
+            );
+            size.convert_to(IVEC2)
+        }
+        (None, None) => builtin_expr(Builtin::OutputSize),
     }
 }
 

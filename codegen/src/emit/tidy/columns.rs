@@ -51,7 +51,14 @@ impl Columns<'_> {
             Op::Function(name) => call(name.len()),
             Op::Ir(op) => match op {
                 ir::Op::Const(bits) => self.constant_columns(expr.ty, bits),
-                ir::Op::Uniform(k) => 11 + self.graph.uniforms[*k as usize].name.len(),
+                // The frame's size follows the kernel's uniforms.
+                ir::Op::Uniform(k) => {
+                    11 + self
+                        .graph
+                        .uniforms
+                        .get(*k as usize)
+                        .map_or(10, |uniform| uniform.name.len())
+                }
                 ir::Op::Varying(k) => self.graph.varyings[*k as usize].name.len(),
                 ir::Op::Unary(ir::UnaryOp::Neg | ir::UnaryOp::Not | ir::UnaryOp::BitNot) => {
                     args + 1 + parenthesis_columns(expr)

@@ -34,6 +34,30 @@ impl f32 {
         let below = self % divisor < 0.0;
         if below { if divisor > 0.0 { whole - 1.0 } else { whole + 1.0 } } else { whole }
     }
+
+    fn is_subnormal(self) -> bool {
+        let bits = self.to_bits() & 0x7fff_ffff;
+        bits != 0 && bits < 0x0080_0000
+    }
+
+    fn is_normal(self) -> bool {
+        let bits = self.to_bits() & 0x7fff_ffff;
+        bits >= 0x0080_0000 && bits < 0x7f80_0000
+    }
+
+    fn next_up(self) -> f32 {
+        let bits = self.to_bits();
+        let size = bits & 0x7fff_ffff;
+        let next = if size == 0 { 1 } else if bits == size { bits.wrapping_add(1) } else { bits.wrapping_sub(1) };
+        f32::from_bits(if size > 0x7f80_0000 || bits == 0x7f80_0000 { bits } else { next })
+    }
+
+    fn next_down(self) -> f32 {
+        let bits = self.to_bits();
+        let size = bits & 0x7fff_ffff;
+        let next = if size == 0 { 0x8000_0001 } else if bits == size { bits.wrapping_sub(1) } else { bits.wrapping_add(1) };
+        f32::from_bits(if size > 0x7f80_0000 || bits == 0xff80_0000 { bits } else { next })
+    }
 }
 
 fn acos_approx(v: f32) -> f32 {

@@ -134,6 +134,36 @@ impl Iterator {
         __Filtered { items: left }
     }
 
+    fn map_while<T, U>(items: [T], f: impl Fn(T) -> Option<U>) -> __Filtered<U> {
+        let mut goes_on = true;
+        let mut left = items.map(|x| f(x));
+        for k in 0..left.len() {
+            goes_on = goes_on && left[k].is_some();
+            if !goes_on {
+                left[k] = None;
+            }
+        }
+        __Filtered { items: left }
+    }
+
+    fn is_sorted<T>(items: [T]) -> bool {
+        Array::is_sorted(&items)
+    }
+
+    fn is_sorted_by<T>(items: [T], f: impl Fn(&T, &T) -> bool) -> bool {
+        Array::is_sorted_by(&items, f)
+    }
+
+    fn rposition<T>(items: [T], f: impl Fn(T) -> bool) -> Option<usize> {
+        let mut found = None;
+        for k in 0..items.len() {
+            if f(items[k]) {
+                found = Some(k);
+            }
+        }
+        found
+    }
+
     fn min<T>(items: [T]) -> Option<T> {
         Iterator::reduce(items, |least, x| if x < least { x } else { least })
     }
@@ -321,5 +351,83 @@ impl Array {
             }
         }
         false
+    }
+
+    fn starts_with<T>(items: &[T], start: &[T]) -> bool {
+        if start.len() > items.len() {
+            return false;
+        }
+        for k in 0..start.len() {
+            if items[k] != start[k] {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn ends_with<T>(items: &[T], end: &[T]) -> bool {
+        if end.len() > items.len() {
+            return false;
+        }
+        for k in 0..end.len() {
+            if items[items.len() - end.len() + k] != end[k] {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn is_sorted<T>(items: &[T]) -> bool {
+        for k in 1..items.len() {
+            if !(items[k - 1] <= items[k]) {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn is_sorted_by<T>(items: &[T], f: impl Fn(&T, &T) -> bool) -> bool {
+        for k in 1..items.len() {
+            if !f(&items[k - 1], &items[k]) {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn rotate_left<T>(items: &mut [T], n: usize) {
+        for _ in 0..n {
+            for k in 1..items.len() {
+                Array::swap(items, k - 1, k);
+            }
+        }
+    }
+
+    fn rotate_right<T>(items: &mut [T], n: usize) {
+        Array::rotate_left(items, items.len() - n);
+    }
+
+    fn fill_with<T>(items: &mut [T], f: impl Fn() -> T) {
+        for k in 0..items.len() {
+            items[k] = f();
+        }
+    }
+
+    fn clone_from_slice<T>(items: &mut [T], from: &[T]) {
+        for k in 0..items.len() {
+            items[k] = from[k];
+        }
+    }
+
+    fn swap_with_slice<T>(items: &mut [T], other: &mut [T]) {
+        for k in 0..items.len() {
+            let item = items[k];
+            items[k] = other[k];
+            other[k] = item;
+        }
+    }
+
+    fn sort_unstable_by_key<T, K>(items: &mut [T], f: impl Fn(&T) -> K) {
+        Array::sort_by_key(items, f);
     }
 }

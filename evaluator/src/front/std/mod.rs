@@ -4,6 +4,8 @@
 //! The texts are read after a kernel's files. Of what they define, only what the files mention is parsed, and only what the
 //! kernel reaches is kept.
 
+mod by_size;
+
 use crate::diagnostic::{File, Span};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::Write;
@@ -28,6 +30,7 @@ struct Piece {
 pub fn text(files: &[File]) -> String {
     let mut mentioned: HashSet<&str> = files.iter().flat_map(|file| words(&file.text)).collect();
     let mut taken = BTreeSet::new();
+    let own: HashSet<&str> = files.iter().flat_map(|file| declared_types(&file.text)).collect();
     let structures: HashSet<&str> = pieces()
         .iter()
         .filter(|piece| piece.text.lines().any(|line| line.starts_with("struct ")))
@@ -37,12 +40,13 @@ pub fn text(files: &[File]) -> String {
         let before = taken.len();
         for (k, piece) in pieces().iter().enumerate() {
             // A structure of the library's own is made by its functions alone, or written by its name.
-            let own = words(&piece.of).find(|word| structures.contains(word));
-            let there = own.is_none_or(|name| mentioned.contains(name));
-            let asked = there && piece.names.iter().any(|name| mentioned.contains(name.as_str()));
+            let structure = words(&piece.of).find(|word| structures.contains(word));
+            let is_replaced = structure.is_some_and(|name| own.contains(name)) || piece.is_type_of(&own);
+            let there = structure.is_none_or(|name| mentioned.contains(name)) && !is_replaced;
+            let asked = piece.names.iter().any(|name| mentioned.contains(name.as_str()));
             // A derived `Default` calls `default` of the fields' types without mentioning its name.
             let derived = piece.names == ["default"] && mentioned.contains("Default");
-            if (asked || derived) && taken.insert(k) {
+            if there && (asked || derived) && taken.insert(k) {
                 mentioned.extend(words(&piece.text));
             }
         }
@@ -51,6 +55,45 @@ pub fn text(files: &[File]) -> String {
         }
     }
     written(taken.into_iter().map(|k| &pieces()[k]))
+}
+
+/// Names of the structures and enums that a text declares.
+fn declared_types(text: &str) -> impl Iterator<Item = &str> {
+    let mut before = "";
+    words(text).filter(move |word| {
+        let is_declared = before == "struct" || before == "enum";
+        before = word;
+        is_declared
+    })
+}
+
+impl Piece {
+    /// Name of the type that an `impl` is of, without its parameters; empty for items outside of an `impl`.
+    fn type_name(&self) -> &str {
+        let of = self.of.rsplit_once("> ").map_or(self.of.as_str(), |(_, of)| of);
+        of.trim().split('<').next().unwrap_or_default()
+    }
+
+    /// Returns whether the piece declares one of `types`, or implements an operator for it.
+    fn is_type_of(&self, types: &HashSet<&str>) -> bool {
+        let is_type = self.text.starts_with("impl ") || declared_types(&self.text).next().is_some();
+        is_type && self.names.first().is_some_and(|name| types.contains(name.as_str()))
+    }
+}
+
+/// Functions of these texts that only others of them call.
+const INTERNAL: [&str; 3] = ["divides_by", "multiplies", "to_vec4"];
+
+/// Names of the functions that a type has in these texts.
+pub fn function_names(ty: &str) -> Vec<&'static str> {
+    let of_type = pieces().iter().filter(|piece| piece.type_name() == ty);
+    let names = of_type.flat_map(|piece| piece.names.iter().map(String::as_str));
+    let mut names: Vec<&str> = names
+        .filter(|name| name.starts_with(char::is_lowercase) && !INTERNAL.contains(name))
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    names
 }
 
 /// The functions, those of a type in an `impl` of it.
@@ -82,16 +125,20 @@ fn pieces() -> &'static [Piece] {
         let mut text = [
             include_str!("floats.rs"),
             include_str!("integers.rs"),
+            include_str!("checked.rs"),
             include_str!("shapes.rs"),
             include_str!("option.rs"),
             include_str!("defaults.rs"),
             include_str!("iterators.rs"),
             include_str!("workgroups.rs"),
+            include_str!("quat.rs"),
         ]
         .concat();
         for lanes in 2..=4 {
             text += &include_str!("vectors.rs").replace("Vec3", &format!("Vec{lanes}"));
             by_lane(&mut text, lanes);
+            by_size::write_vectors(&mut text, lanes);
+            by_size::write_matrix(&mut text, lanes);
         }
         split(&text)
     })
@@ -107,7 +154,15 @@ fn split(text: &str) -> Vec<Piece> {
             names,
             text: format!("{}{line}\n", std::mem::take(attributes)),
         };
-        if let Some(header) = line.strip_prefix("impl") {
+        let is_operator = found
+            .last()
+            .is_some_and(|piece| piece.text.starts_with("impl ") && !piece.text.trim_end().ends_with("\n}"));
+        if is_operator && let Some(operator) = found.last_mut() {
+            operator.text += &format!("{line}\n");
+        } else if let Some((_, implementor)) = line.strip_prefix("impl ").and_then(|line| line.split_once(" for ")) {
+            let name = implementor.trim_end_matches(" {").to_owned();
+            found.push(piece(vec![name], &mut attributes));
+        } else if let Some(header) = line.strip_prefix("impl") {
             of = header.trim_end_matches(" {");
         } else if line == "}" && !of.is_empty() {
             of = "";
@@ -116,6 +171,8 @@ fn split(text: &str) -> Vec<Piece> {
         } else if let Some(rest) = line.trim_start().strip_prefix("fn ") {
             let end = rest.find(['(', '<']).unwrap_or(rest.len());
             found.push(piece(vec![rest[..end].to_owned()], &mut attributes));
+        } else if let Some((name, _)) = line.strip_prefix("    const ").and_then(|rest| rest.split_once(':')) {
+            found.push(piece(vec![name.to_owned()], &mut attributes));
         } else if let Some(rest) = line.strip_prefix("enum ").or_else(|| line.strip_prefix("struct ")) {
             let end = rest.find(['<', ' ']).unwrap_or(rest.len());
             found.push(piece(vec![rest[..end].to_owned()], &mut attributes));
@@ -203,33 +260,27 @@ mod tests {
     use super::pieces;
     use crate::diagnostic::File;
     use crate::front;
-    use std::fmt::Write;
     use std::sync::Arc;
 
     /// Compiles every function of the texts: nothing else checks those that no kernel reaches.
     #[test]
     fn every_function_has_its_types() {
         assert!(pieces().len() > 100, "{} functions", pieces().len());
-        let mut text = String::new();
-        for piece in pieces() {
-            let _ = writeln!(text, "// {}", piece.names.join(" "));
-        }
-        let kernel = File {
-            path: "kernel.rs".to_owned(),
-            text,
-        };
-        let files = Arc::new(vec![kernel]);
-        for piece in pieces().iter().filter(|piece| piece.text.contains("fn ")) {
-            // Of `<T> Option<T>` the type's name.
-            let of = piece
-                .of
-                .rsplit_once("> ")
-                .map_or(piece.of.as_str(), |(_, of)| of)
-                .trim();
-            let name = match of.split('<').next() {
-                None | Some("") => piece.names[0].clone(),
-                Some(of) => format!("{of}::{}", piece.names[0]),
+        for piece in pieces()
+            .iter()
+            .filter(|piece| piece.text.contains("fn ") && !piece.text.starts_with("impl "))
+        {
+            let of = piece.type_name();
+            let name = match of {
+                "" => piece.names[0].clone(),
+                of => format!("{of}::{}", piece.names[0]),
             };
+            // The text mentions one function, so that only what that one needs is parsed.
+            let kernel = File {
+                path: "kernel.rs".to_owned(),
+                text: format!("// {} {of}\n", piece.names.join(" ")),
+            };
+            let files = Arc::new(vec![kernel]);
             let mut parsed = front::parse(&files, &name).unwrap_or_else(|e| panic!("{name}:\n{e}"));
             assert!(parsed.library.functions.contains_key(&name), "{name}");
             if let Err(errors) = crate::infer::infer_types(&mut parsed.library, &parsed.reached) {

@@ -233,3 +233,81 @@ impl bool {
         if self { Some(f()) } else { None }
     }
 }
+
+impl<T> Option<T> {
+    fn take(&mut self) -> Option<T> {
+        let old = *self;
+        *self = None;
+        old
+    }
+
+    fn replace(&mut self, x: T) -> Option<T> {
+        let old = *self;
+        *self = Some(x);
+        old
+    }
+
+    fn insert(&mut self, x: T) {
+        *self = Some(x);
+    }
+}
+
+impl<T, E> Result<T, E> {
+    fn is_ok_and(self, f: impl Fn(T) -> bool) -> bool {
+        match self {
+            Ok(x) => f(x),
+            Err(_) => false,
+        }
+    }
+
+    fn is_err_and(self, f: impl Fn(E) -> bool) -> bool {
+        match self {
+            Ok(_) => false,
+            Err(e) => f(e),
+        }
+    }
+
+    fn map_or<U>(self, other: U, f: impl Fn(T) -> U) -> U {
+        match self {
+            Ok(x) => f(x),
+            Err(_) => other,
+        }
+    }
+
+    fn map_or_else<U>(self, other: impl Fn(E) -> U, f: impl Fn(T) -> U) -> U {
+        match self {
+            Ok(x) => f(x),
+            Err(e) => other(e),
+        }
+    }
+
+    fn and<U>(self, other: Result<U, E>) -> Result<U, E> {
+        match self {
+            Ok(_) => other,
+            Err(e) => Err(e),
+        }
+    }
+
+    fn or<F>(self, other: Result<T, F>) -> Result<T, F> {
+        match self {
+            Ok(x) => Ok(x),
+            Err(_) => other,
+        }
+    }
+
+    fn or_else<F>(self, f: impl Fn(E) -> Result<T, F>) -> Result<T, F> {
+        match self {
+            Ok(x) => Ok(x),
+            Err(e) => f(e),
+        }
+    }
+}
+
+impl<T: Default, E> Result<T, E> {
+    fn unwrap_or_default(self) -> T {
+        match self {
+            Ok(x) => x,
+            Err(_) => T::default(),
+        }
+    }
+}

@@ -302,3 +302,102 @@ impl Mat4 {
         [self.x_axis.x, self.x_axis.y, self.x_axis.z, self.x_axis.w, self.y_axis.x, self.y_axis.y, self.y_axis.z, self.y_axis.w, self.z_axis.x, self.z_axis.y, self.z_axis.z, self.z_axis.w, self.w_axis.x, self.w_axis.y, self.w_axis.z, self.w_axis.w]
     }
 }
+
+impl Vec3 {
+    fn from_homogeneous(v: Vec4) -> Vec3 {
+        v.truncate() / v.w
+    }
+
+    fn to_homogeneous(self) -> Vec4 {
+        self.extend(1.0)
+    }
+
+    fn angle_to(self, other: Vec3, axis: Vec3) -> f32 {
+        self.cross(other).dot(axis).atan2(self.dot(other))
+    }
+}
+
+impl Mat2 {
+    fn from_mat3_minor(m: Mat3, i: usize, j: usize) -> Mat2 {
+        let (a, b) = match i {
+            0 => (m.y_axis, m.z_axis),
+            1 => (m.x_axis, m.z_axis),
+            _ => (m.x_axis, m.y_axis),
+        };
+        match j {
+            0 => Mat2::from_cols(a.yz(), b.yz()),
+            1 => Mat2::from_cols(a.xz(), b.xz()),
+            _ => Mat2::from_cols(a.xy(), b.xy()),
+        }
+    }
+}
+
+impl Mat3 {
+    fn from_scale_angle_translation(scale: Vec2, angle: f32, translation: Vec2) -> Mat3 {
+        let (sin, cos) = angle.sin_cos();
+        Mat3::from_cols(
+            vec3(cos * scale.x, sin * scale.x, 0.0),
+            vec3(-sin * scale.y, cos * scale.y, 0.0),
+            vec3(translation.x, translation.y, 1.0),
+        )
+    }
+
+    fn transform_point2(&self, point: Vec2) -> Vec2 {
+        Mat2::from_cols(self.x_axis.xy(), self.y_axis.xy()) * point + self.z_axis.xy()
+    }
+
+    fn transform_vector2(&self, vector: Vec2) -> Vec2 {
+        Mat2::from_cols(self.x_axis.xy(), self.y_axis.xy()) * vector
+    }
+}
+
+impl Mat4 {
+    fn from_mat3_translation(m: Mat3, translation: Vec3) -> Mat4 {
+        Mat4::from_cols(m.x_axis.extend(0.0), m.y_axis.extend(0.0), m.z_axis.extend(0.0), translation.extend(1.0))
+    }
+
+    fn from_rotation_x(angle: f32) -> Mat4 {
+        let (sin, cos) = angle.sin_cos();
+        Mat4::from_cols(Vec4::X, vec4(0.0, cos, sin, 0.0), vec4(0.0, -sin, cos, 0.0), Vec4::W)
+    }
+
+    fn from_rotation_y(angle: f32) -> Mat4 {
+        let (sin, cos) = angle.sin_cos();
+        Mat4::from_cols(vec4(cos, 0.0, -sin, 0.0), Vec4::Y, vec4(sin, 0.0, cos, 0.0), Vec4::W)
+    }
+
+    fn from_rotation_z(angle: f32) -> Mat4 {
+        let (sin, cos) = angle.sin_cos();
+        Mat4::from_cols(vec4(cos, sin, 0.0, 0.0), vec4(-sin, cos, 0.0, 0.0), Vec4::Z, Vec4::W)
+    }
+
+    fn from_axis_angle(axis: Vec3, angle: f32) -> Mat4 {
+        let (sin, cos) = angle.sin_cos();
+        let axis_sin = axis * sin;
+        let axis_sq = axis * axis;
+        let omc = 1.0 - cos;
+        let xyomc = axis.x * axis.y * omc;
+        let xzomc = axis.x * axis.z * omc;
+        let yzomc = axis.y * axis.z * omc;
+        Mat4::from_cols(
+            vec4(axis_sq.x * omc + cos, xyomc + axis_sin.z, xzomc - axis_sin.y, 0.0),
+            vec4(xyomc - axis_sin.z, axis_sq.y * omc + cos, yzomc + axis_sin.x, 0.0),
+            vec4(xzomc + axis_sin.y, yzomc - axis_sin.x, axis_sq.z * omc + cos, 0.0),
+            Vec4::W,
+        )
+    }
+}
+
+impl IVec2 {
+    fn perp(self) -> IVec2 {
+        ivec2(-self.y, self.x)
+    }
+
+    fn perp_dot(self, other: IVec2) -> i32 {
+        self.x * other.y - self.y * other.x
+    }
+
+    fn rotate(self, other: IVec2) -> IVec2 {
+        ivec2(self.x * other.x - self.y * other.y, self.y * other.x + self.x * other.y)
+    }
+}

@@ -88,4 +88,17 @@ impl Vec3 {
     fn abs_diff_eq(self, other: Vec3, most: f32) -> bool {
         (self - other).abs().cmple(Vec3::splat(most)).all()
     }
+
+    fn step(self, other: Vec3) -> Vec3 {
+        Vec3::select(other.cmplt(self), Vec3::ZERO, Vec3::ONE)
+    }
+
+    fn smoothstep(self, low: Vec3, high: Vec3) -> Vec3 {
+        let t = ((self - low) / (high - low)).saturate();
+        t * t * (Vec3::splat(3.0) - Vec3::splat(2.0) * t)
+    }
+
+    fn lerp_monotonic(self, other: Vec3, s: f32) -> Vec3 {
+        self + (other - self) * s
+    }
 }

@@ -165,10 +165,7 @@ fn texts(compiled: &Compiled, failed: &mut impl FnMut(Target, Errors)) -> Vec<(T
 
 /// Returns whether the kernel is rejected because a language or a stage lacks such shaders, whatever it computes.
 fn has_no_such_text(error: &Errors) -> bool {
-    matches!(
-        error.first_code(),
-        Some(Code::NotInTarget | Code::FrameSize | Code::StageUnfit)
-    )
+    matches!(error.first_code(), Some(Code::NotInTarget | Code::StageUnfit))
 }
 
 /// Messages of a compiler, without the text that it compiled.

@@ -31,7 +31,7 @@ pub fn check(engine: &str, files: &Files) -> Result<usize, String> {
         }
         "postprocessing" => {
             let effect = literal(ending(".js")?, "FRAGMENT")?;
-            let around = "precision highp float;\nuniform highp sampler2D inputBuffer;\nout vec4 colour;\n";
+            let around = "precision highp float;\nuniform highp sampler2D inputBuffer;\nuniform vec2 resolution;\nout vec4 colour;\n";
             let main = "void main() { mainImage(vec4(0.0), vec2(0.0), colour); }\n";
             essl(&format!("{es}{around}{effect}{main}"))?;
         }
@@ -180,7 +180,7 @@ fn godot(text: &str) -> Result<(), String> {
 fn unity(shader: &str, include: &str) -> Result<(), String> {
     let program = between(shader, "HLSLPROGRAM", "ENDHLSL")?;
     let lines = program.lines().filter(|line| !line.trim_start().starts_with('#'));
-    let blit = "Texture2D<float4> _BlitTexture;\nSamplerState sampler_LinearClamp;\nstruct Varyings { float4 positionCS : SV_POSITION; };\n";
+    let blit = "Texture2D<float4> _BlitTexture;\nfloat4 _BlitTexture_TexelSize;\nSamplerState sampler_LinearClamp;\nstruct Varyings { float4 positionCS : SV_POSITION; };\n";
     let body = lines.collect::<Vec<_>>().join("\n");
     compilers::compiled_hlsl(&format!("{blit}{include}{body}"), Stage::Fragment, "Frag").map(drop)
 }

@@ -3,7 +3,6 @@
 use super::*;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use straightline_codegen::diagnostic::Code;
 use straightline_codegen::emit::Target;
 use straightline_codegen::ir::Invocation;
 use straightline_codegen::{Config, EmitOptions, Manifest};
@@ -34,18 +33,8 @@ fn every_kernel_emits_in_every_language_but_glsl() {
     let mut spirv = Vec::new();
     for compiled in kernels::compiled() {
         for stage in [Stage::Compute, Stage::Fragment] {
-            let emitted = match compiled.emit(&options(stage).targets(targets.clone())) {
-                Ok(emitted) => emitted,
-                // The kernel needs the frame's size, in every precision.
-                Err(error)
-                    if error.first_code() == Some(Code::FrameSize)
-                        && compiled.kernel == "catmull_rom"
-                        && stage == Stage::Fragment =>
-                {
-                    continue;
-                }
-                Err(e) => panic!("{} {}: {e}", compiled.kernel, stage.name()),
-            };
+            let emitted = compiled.emit(&options(stage).targets(targets.clone()));
+            let emitted = emitted.unwrap_or_else(|e| panic!("{} {}: {e}", compiled.kernel, stage.name()));
             assert_eq!(emitted.files.len(), targets.len());
             let text = String::from_utf8_lossy(&emitted.files[&Target::Wgsl]);
             assert!(text.starts_with("enable f16;\n\n// "), "{text}");
@@ -64,7 +53,7 @@ fn every_kernel_emits_in_every_language_but_glsl() {
             spirv.push(path);
         }
     }
-    assert_eq!(spirv.len(), 45);
+    assert_eq!(spirv.len(), 46);
     common::other_compilers(&[], &spirv);
 }
 
