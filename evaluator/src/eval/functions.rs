@@ -26,9 +26,9 @@ impl Evaluator<'_> {
                 let x = self.float_node(x, name, span)?;
                 Ok(Some(Value::Node(self.build_saturate(x))))
             }
-            ("mix", [from, _, _]) => {
+            ("mix", [from, to, amount]) => {
                 self.float_node(from, name, span)?;
-                self.eval_math_method(from, "lerp", &values[1..], span).map(Some)
+                self.eval_mix(from, to, amount, span).map(Some)
             }
             ("step", [edge, x]) => {
                 let (edge, x) = (self.float_node(edge, name, span)?, self.float_node(x, name, span)?);

@@ -33,12 +33,7 @@ impl Evaluator<'_> {
                 Some(self.builder.add(Op::Clamp, [x, low, high], ty))
             }
             [to, amount] if name == "lerp" && !self.ty(x).is_scalar() => {
-                // As in glam: self * (1 - s) + to * s.
-                let one = Value::Node(self.builder.f32(1.0));
-                let rest = self.eval_binary(BinaryOp::Sub, &one, amount, span)?;
-                let from = self.eval_binary(BinaryOp::Mul, receiver, &rest, span)?;
-                let to = self.eval_binary(BinaryOp::Mul, to, amount, span)?;
-                return self.eval_binary(BinaryOp::Add, &from, &to, span);
+                return self.eval_mix(receiver, to, amount, span);
             }
             _ => None,
         };
@@ -58,6 +53,15 @@ impl Evaluator<'_> {
             .help(known_methods(name, self.ty(x)))
             .into()),
         }
+    }
+
+    /// Mixes two values as glam's `lerp` does: from * (1 - amount) + to * amount.
+    pub fn eval_mix(&mut self, from: &Value, to: &Value, amount: &Value, span: Span) -> Eval {
+        let one = Value::Node(self.builder.f32(1.0));
+        let rest = self.eval_binary(BinaryOp::Sub, &one, amount, span)?;
+        let from = self.eval_binary(BinaryOp::Mul, from, &rest, span)?;
+        let to = self.eval_binary(BinaryOp::Mul, to, amount, span)?;
+        self.eval_binary(BinaryOp::Add, &from, &to, span)
     }
 
     fn math_one(&mut self, x: NodeId, name: &str) -> Eval<Option<NodeId>> {
