@@ -71,7 +71,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let apart_s1_t4 = square_s1 - n_s1.x * n_t4.x - n_s1.y * n_t4.y - n_s1.z * n_t4.z;
     let number_s1_t4 = select(16.0, apart_s1_t4, apart_s1_t4 < 16.0);
     let d_s1_t4 = min(max(abs(seen_depth_s1 - shaded_depth_t4), number_s1_t4), 16.0);
-    // sample 1, tap 5: kernels/src/sraa/metric.rs:161
+    // sample 1, tap 5: kernels/src/sraa/metric.rs:165
     let apart_s1_t5 = square_s1 - n_s1.x * n_t5.x - n_s1.y * n_t5.y - n_s1.z * n_t5.z;
     let number_s1_t5 = select(16.0, apart_s1_t5, apart_s1_t5 < 16.0);
     let d_s1_t5 = min(max(abs(seen_depth_s1 - shaded_depth_t5), number_s1_t5), 16.0);

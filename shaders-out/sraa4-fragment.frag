@@ -75,7 +75,7 @@ void main() {
     float step_s1_t2 = abs(seen_depth_s1 - (abs(depth_s1_t2) < 1e30 ? depth_s1_t2 : 1e30));
     float apart_s1_t2 = square_s1 - n_s1.x * n_s1_t2.x - n_s1.y * n_s1_t2.y - n_s1.z * n_s1_t2.z;
     float d_s1_t2 = min(max(step_s1_t2, (apart_s1_t2 < 16.0 ? apart_s1_t2 : 16.0)), 16.0);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:161
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:165
     float apart_s1_t4 = square_s1 - n_s1.x * n_t4.x - n_s1.y * n_t4.y - n_s1.z * n_t4.z;
     float number_s1_t4 = (apart_s1_t4 < 16.0 ? apart_s1_t4 : 16.0);
     float d_s1_t4 = min(max(abs(seen_depth_s1 - shaded_depth_t4), number_s1_t4), 16.0);

@@ -64,7 +64,7 @@ void main() {
                     float apart = square - n.x * n_2.x - n.y * n_2.y - n.z * n_2.z;
                     float number = 16.0;
                     if (apart < 16.0) {
-                        // kernels/src/sraa/metric.rs:161
+                        // kernels/src/sraa/metric.rs:165
                         number = apart;
                     }
                     // kernels/src/sraa/mod.rs:290

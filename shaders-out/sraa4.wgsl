@@ -76,7 +76,7 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let step_s1_t2 = abs(seen_depth_s1 - select(1e30, depth_s1_t2, abs(depth_s1_t2) < 1e30));
     let apart_s1_t2 = square_s1 - n_s1.x * n_s1_t2.x - n_s1.y * n_s1_t2.y - n_s1.z * n_s1_t2.z;
     let d_s1_t2 = min(max(step_s1_t2, select(16.0, apart_s1_t2, apart_s1_t2 < 16.0)), 16.0);
-    // sample 1, tap 4: kernels/src/sraa/metric.rs:161
+    // sample 1, tap 4: kernels/src/sraa/metric.rs:165
     let apart_s1_t4 = square_s1 - n_s1.x * n_t4.x - n_s1.y * n_t4.y - n_s1.z * n_t4.z;
     let number_s1_t4 = select(16.0, apart_s1_t4, apart_s1_t4 < 16.0);
     let d_s1_t4 = min(max(abs(seen_depth_s1 - shaded_depth_t4), number_s1_t4), 16.0);

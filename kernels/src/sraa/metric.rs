@@ -155,7 +155,11 @@ const NEAREST: f32 = 1.0e-30;
 pub(super) fn distance(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
     let larger = match cfg.metric {
         Metric::PlanesNormals => {
-            number(cfg, off_plane(cfg, sample, tap, at)).max(number(cfg, turned(cfg, sample, tap)))
+            let apart = number(cfg, off_plane(cfg, sample, tap, at)).max(number(cfg, turned(cfg, sample, tap)));
+            match (cfg.projection, cfg.difference) {
+                (Projection::Perspective, Difference::Relative) => apart.max(stretched(sample, tap)),
+                _ => apart,
+            }
         }
         // Depths are never NaN, and neither are their differences.
         Metric::DepthNormals => deeper(cfg, sample, tap).max(number(cfg, turned(cfg, sample, tap))),
@@ -228,11 +232,7 @@ fn off_plane(cfg: &Sraa, sample: &Sample, tap: &Surface, at: Vec2) -> f32 {
             }
         }
     };
-    let off = cfg.depth_scale * off.abs();
-    match (cfg.projection, cfg.difference) {
-        (Projection::Perspective, Difference::Relative) => off.max(stretched((deeper / nearest).abs())),
-        _ => off,
-    }
+    cfg.depth_scale * off.abs()
 }
 
 /// Change of depth along a plane, as a share of the sample's depth, up to which a tap may show what the sample shows.
@@ -243,7 +243,9 @@ const STRETCH: f32 = 400.0;
 
 /// Difference of a tap that lies far along the sample's plane. A pixel at the horizon spans hundreds of units of a floor, over
 /// which haze and detail change as between surfaces.
-fn stretched(share: f32) -> f32 {
+fn stretched(sample: &Sample, tap: &Surface) -> f32 {
+    let deeper = tap.depth - sample.surface.depth;
+    let share = (deeper / sample.surface.depth.max(NEAREST)).abs();
     STRETCH * share - STRETCH * FAR_ALONG
 }
 

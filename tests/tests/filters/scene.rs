@@ -153,14 +153,15 @@ fn the_mask_keeps_a_textured_floor_and_falloff_limits_its_blur() {
         ];
         resolve(&capture, &words, Unroll::Full)
     };
-    // Pixels that lie on the floor with everything that a filter reads around them. Beyond the border lie copies, which
-    // are on no plane.
+    // Pixels that lie on the floor with everything that a filter reads around them, and not so near the horizon that depth grows
+    // by half from one to the next. Beyond the border lie copies, which are on no plane.
     let (size, depths) = (capture.size.as_ivec2(), capture.depth.layers());
     let is_floor = |x: i32, y: i32| {
         let around = (-1..=1).flat_map(|j| (-1..=1).map(move |i| ivec2(x + i, y + j)));
-        let mut near = around.flat_map(|at| depths.iter().map(move |layer| layer.load(at)));
+        let near = around.flat_map(|at| depths.iter().map(move |layer| layer.load(at)));
+        let (least, most) = near.fold((f32::INFINITY, 0.0f32), |(least, most), z| (least.min(z), most.max(z)));
         let inside = x > 0 && y > 0 && x + 1 < size.x && y + 1 < size.y;
-        inside && near.all(|z| z < 0.5 * SKY_DEPTH)
+        inside && most < 0.5 * SKY_DEPTH && most - least < 0.5 * least
     };
     let floor: Vec<bool> = (0..size.y)
         .flat_map(|y| (0..size.x).map(move |x| is_floor(x, y)))
