@@ -147,8 +147,10 @@ impl Maker {
             }
             18 if self.on(Feature::Matrices) && lane == Lane::F => {
                 let m = self.expr(&Ty::Mat(n), d);
-                match self.random.below(2) {
+                match self.random.below(4) {
                     0 => format!("({m}).col({})", self.random.below(n as usize)),
+                    1 => format!("({m}).row({})", self.random.below(n as usize)),
+                    2 => format!("({m}).diagonal()"),
                     _ => {
                         let axis = self.random.below(n as usize);
                         format!("({m}).{}_axis", ["x", "y", "z", "w"][axis])
@@ -216,10 +218,17 @@ impl Maker {
                 let op = self.random.pick(&["+", "-"]);
                 format!("({} {op} {})", self.expr(&Ty::Mat(n), d), self.expr(&Ty::Mat(n), d))
             }
-            _ => {
-                let columns: Vec<String> = (0..n).map(|_| self.expr(&column, d)).collect();
-                format!("Mat{n}::from_cols({})", columns.join(", "))
-            }
+            _ => match self.random.below(4) {
+                0 => {
+                    let cells: Vec<String> = (0..n * n).map(|_| self.leaf(&Ty::F32, d)).collect();
+                    format!("Mat{n}::from_cols_array(&[{}])", cells.join(", "))
+                }
+                k => {
+                    let vectors: Vec<String> = (0..n).map(|_| self.expr(&column, d)).collect();
+                    let function = if k == 1 { "from_rows" } else { "from_cols" };
+                    format!("Mat{n}::{function}({})", vectors.join(", "))
+                }
+            },
         }
     }
 }

@@ -34,18 +34,23 @@ pub const NOT_COMPARED: &[&str] = &[
     "rotate_z",
     "from_rotation_x",
     "from_rotation_z",
+    "from_axis_angle",
+    "from_rotation_arc",
+    "slerp",
 ];
 
 /// Names in the page's sections on what kernels read and write that are of the host, of shaders, or of an example.
 const NOT_OF_KERNELS: &[&str] = &[
     "coord",
     "csv",
+    "frame_size",
     "grade_x_axis",
     "lights_0_position",
     "palette_0",
     "rs",
     "scene_tint",
     "storageBarrier",
+    "vec2u",
     "workgroupBarrier",
 ];
 
