@@ -125,13 +125,6 @@ fn every_way_to_name_a_row_is_turned() {
         for size in [uvec2(44, 30), uvec2(45, 31)] {
             let inputs = test_inputs(&compiled.graph, size);
             for stage in [Stage::Compute, Stage::Fragment] {
-                if stage == Stage::Fragment && ["gathers", "filters", "compares"].contains(&name) {
-                    // Nothing tells a fragment shader the frame's height.
-                    let below = bench.emit_options(stage).origin(Origin::LowerLeft);
-                    let error = compiled.emit(&below).expect_err("no frame").to_string();
-                    assert!(error.contains("frame's size"), "{error}");
-                    continue;
-                }
                 check(&bench, &compiled, &bench.emit_options(stage), &inputs, filters);
                 check(
                     &bench,
