@@ -122,9 +122,12 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 fn pieces() -> &'static [Piece] {
     static PIECES: OnceLock<Vec<Piece>> = OnceLock::new();
     PIECES.get_or_init(|| {
+        let of_both = include_str!("both_integers.rs");
         let mut text = [
             include_str!("floats.rs"),
             include_str!("integers.rs"),
+            of_both,
+            &of_both.replace("i32", "u32"),
             include_str!("checked.rs"),
             include_str!("shapes.rs"),
             include_str!("option.rs"),
