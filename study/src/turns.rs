@@ -8,7 +8,7 @@ use straightline_bench::execute::{Bench, ExecuteError, Timed, Work};
 ///
 /// # Errors
 ///
-/// Those of the work.
+/// Errors of the work.
 pub fn run_in_turn(
     bench: &Bench,
     works: &mut [Work<'_>],

@@ -109,7 +109,7 @@ impl Bench {
     ///
     /// # Errors
     ///
-    /// Those of the work.
+    /// Errors of the work.
     pub fn in_turn(
         &self,
         works: &mut [Work<'_>],

@@ -41,7 +41,7 @@ pub enum Place {
     Near([f64; 2], Unit),
     /// Position in texels by probe, for the runtime values that were assumed.
     Assumed([[f64; 2]; PROBES], Causes),
-    /// The same texel from every pixel.
+    /// A texel that is the same from every pixel.
     Fixed,
     /// Anywhere else.
     Elsewhere(Causes),

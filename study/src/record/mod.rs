@@ -65,8 +65,8 @@ pub struct Circumstances {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum IntervalKind {
-    /// Those of records from before the others: of times the extremes, of ratios the span of eight rounds in ten, of frames the
-    /// quartiles, of sweeps and quads 95 % by single rounds.
+    /// Kinds of earlier records: of times the extremes, of ratios the span of eight rounds in ten, of frames the quartiles, of
+    /// sweeps and quads 95 % by single rounds.
     #[default]
     Earlier,
     /// 95 %, by a bootstrap of blocks of rounds.
