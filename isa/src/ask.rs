@@ -20,6 +20,9 @@ pub enum IsaError {
     /// The driver has no such GPU.
     #[error("the driver does not compile for {0}: {1}")]
     Family(Family, String),
+    /// The driver of this machine's GPU reports nothing.
+    #[error("the driver of this machine's GPU cannot be asked: {0}")]
+    Device(String),
     /// The shader is refused.
     #[error("for {0}: {1}")]
     Shader(Family, String),
@@ -60,20 +63,27 @@ fn find_driver() -> Option<PathBuf> {
 }
 
 impl Compiler {
-    /// Starts one: `program` with `arguments` must call [`serve`](super::serve()).
+    /// Starts a compiler: `program` with `arguments` must call [`serve`](super::serve()).
     ///
     /// # Errors
     ///
     /// There is no driver, it does not know the family, or the program cannot be started.
     pub fn start(program: &Path, arguments: &[&str], family: Family) -> Result<Compiler, IsaError> {
-        let driver = find_driver().ok_or(IsaError::NoDriver)?;
         let failed = |e| IsaError::Process(family, e);
-        let mut process = Command::new(program)
+        let mut command = Command::new(program);
+        if family != Family::Device {
+            let driver = find_driver().ok_or(IsaError::NoDriver)?;
+            command
+                .env("RADV_FORCE_FAMILY", family.name())
+                .env("VK_DRIVER_FILES", &driver)
+                .env("VK_ICD_FILENAMES", &driver)
+                .env("MESA_SHADER_CACHE_DISABLE", "true");
+        }
+        // Ctrl-C is for the asking program, which keeps what it has.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut process = command
             .args(arguments)
-            .env("RADV_FORCE_FAMILY", family.name())
-            .env("VK_DRIVER_FILES", &driver)
-            .env("VK_ICD_FILENAMES", &driver)
-            .env("MESA_SHADER_CACHE_DISABLE", "true")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -90,6 +100,7 @@ impl Compiler {
         };
         compiler.device = match compiler.read_answer()? {
             Answer::Device(name) => name,
+            Answer::Error(why) if family == Family::Device => return Err(IsaError::Device(why)),
             Answer::Error(why) => return Err(IsaError::Family(family, why)),
             Answer::Report(_) => return Err(failed(std::io::ErrorKind::InvalidData.into())),
         };

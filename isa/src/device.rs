@@ -16,6 +16,8 @@ pub struct Device {
     pub properties: khr::pipeline_executable_properties::Device,
     /// The GPU's name and the driver's version.
     pub name: String,
+    /// Whether the driver is Mesa's for AMD GPUs, whose figures have fields of their own.
+    pub is_radv: bool,
     // Unloads the driver's library when it goes, so it goes last.
     _entry: Entry,
 }
@@ -28,11 +30,12 @@ impl Device {
         let info = vk::InstanceCreateInfo::default().application_info(&application);
         let instance = unsafe { entry.create_instance(&info, None) }.map_err(|e| format!("no Vulkan driver: {e}"))?;
         match unsafe { open_device(&instance) } {
-            Ok((device, name)) => Ok(Device {
+            Ok(Opened { device, name, is_radv }) => Ok(Device {
                 properties: khr::pipeline_executable_properties::Device::new(&instance, &device),
                 instance,
                 device,
                 name,
+                is_radv,
                 _entry: entry,
             }),
             Err(why) => {
@@ -52,15 +55,37 @@ impl Drop for Device {
     }
 }
 
-unsafe fn open_device(instance: &Instance) -> Result<(ash::Device, String), String> {
+/// The first device of the driver.
+struct Opened {
+    device: ash::Device,
+    name: String,
+    is_radv: bool,
+}
+
+unsafe fn open_device(instance: &Instance) -> Result<Opened, String> {
     let all = unsafe { instance.enumerate_physical_devices() }.map_err(|e| format!("no devices: {e}"))?;
-    let physical = *all.first().ok_or("the driver has no device of this family")?;
+    // GPUs before drivers that run on the processor.
+    let is_software = |device: &vk::PhysicalDevice| {
+        unsafe { instance.get_physical_device_properties(*device) }.device_type == vk::PhysicalDeviceType::CPU
+    };
+    let physical = all.into_iter().min_by_key(is_software);
+    let physical = physical.ok_or("the driver has no device of this family")?;
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut about = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
     unsafe { instance.get_physical_device_properties2(physical, &mut about) };
     let about = about.properties;
     let text = |bytes: &[std::ffi::c_char]| unsafe { CStr::from_ptr(bytes.as_ptr()) }.to_string_lossy().into_owned();
     let name = format!("{} ({})", text(&about.device_name), text(&driver.driver_info));
+    let is_radv = driver.driver_id == vk::DriverId::MESA_RADV;
+    let reports_on_shaders = unsafe { instance.enumerate_device_extension_properties(physical) }
+        .map_err(|e| format!("{name}: {e}"))?
+        .iter()
+        .any(|extension| extension.extension_name_as_c_str() == Ok(khr::pipeline_executable_properties::NAME));
+    if !reports_on_shaders {
+        return Err(format!(
+            "{name} does not report on what it compiles: it lacks VK_KHR_pipeline_executable_properties"
+        ));
+    }
 
     let queues = [vk::DeviceQueueCreateInfo::default()
         .queue_family_index(0)
@@ -92,6 +117,6 @@ unsafe fn open_device(instance: &Instance) -> Result<(ash::Device, String), Stri
         .push_next(&mut features);
     let device = unsafe { instance.create_device(physical, &info, None) };
     device
-        .map(|device| (device, name))
+        .map(|device| Opened { device, name, is_radv })
         .map_err(|e| format!("no device: {e}"))
 }

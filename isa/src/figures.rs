@@ -1,6 +1,7 @@
 //! Figures that the compiler reports, and counts of its machine code.
 
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A compiler's output for one shader.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,6 +44,9 @@ pub struct Figures {
     pub latency: u64,
     /// Cycles of a wave where enough of them hide each other's waits: the shader's cost. Those of loops are guesses.
     pub inverse_throughput: u64,
+    /// Figures by the driver's own names for them, where it is not Mesa's for AMD GPUs.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub own: BTreeMap<String, u64>,
 }
 
 fn is_zero(n: &u64) -> bool {
@@ -80,11 +84,11 @@ impl Figures {
     pub(crate) fn record_figure(&mut self, name: &str, value: u64) {
         match name {
             "Instructions" => self.instructions = value,
-            "VGPRs" => self.vector_registers = value,
+            "VGPRs" | "Register Count" => self.vector_registers = value,
             "SGPRs" => self.scalar_registers = value,
             "Spilled VGPRs" | "Spilled SGPRs" => self.spilled += value,
             "Subgroups per SIMD" => self.occupancy = value,
-            "Code size" => self.code_size = value,
+            "Code size" | "Binary Size" => self.code_size = value,
             "LDS size" => self.shared_memory = value,
             "Latency" => self.latency = value,
             "Inverse Throughput" => self.inverse_throughput = value,

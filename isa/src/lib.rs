@@ -3,7 +3,7 @@
 //! Mesa's RADV compiles for AMD GPUs that are not there: instances, devices and pipelines are made as for the real one, and only
 //! submissions are lost. Its compiler reports instructions, registers, occupancy and cycles, and the machine code itself. The
 //! driver learns which GPU it shall be from its environment, when it is loaded: so each family is asked in a process of its own
-//! (see [`Compiler`] and [`serve`]).
+//! (see [`Compiler`] and [`serve`]). A GPU that is there is asked by its own driver ([`Family::Device`]).
 //!
 //! ```no_run
 //! use straightline_isa::{Compiler, Family};
@@ -29,7 +29,7 @@ pub use serve::serve;
 
 use serde::{Deserialize, Serialize};
 
-/// A family of AMD GPUs.
+/// A family of AMD GPUs, or the GPU of this machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Family {
@@ -43,10 +43,12 @@ pub enum Family {
     Navi21,
     /// RDNA 3, 2022: Radeon RX 7900. Mesa has it from 22.3 on.
     Navi31,
+    /// The GPU of this machine by its own driver, if the driver reports on what it compiles: NVIDIA's does.
+    Device,
 }
 
 impl Family {
-    /// All that are asked for, oldest first.
+    /// All that Mesa compiles for without the GPU, oldest first.
     pub const ALL: [Family; 5] = [
         Family::Polaris10,
         Family::Vega10,
@@ -55,7 +57,7 @@ impl Family {
         Family::Navi31,
     ];
 
-    /// As Mesa calls it.
+    /// As Mesa calls it; `device` for the GPU of this machine.
     pub fn name(self) -> &'static str {
         match self {
             Family::Polaris10 => "polaris10",
@@ -63,6 +65,7 @@ impl Family {
             Family::Navi10 => "navi10",
             Family::Navi21 => "navi21",
             Family::Navi31 => "navi31",
+            Family::Device => "device",
         }
     }
 }
@@ -77,9 +80,9 @@ impl std::str::FromStr for Family {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Family, String> {
-        let named = Family::ALL.into_iter().find(|family| family.name() == text);
-        named.ok_or_else(|| {
-            let names: Vec<_> = Family::ALL.iter().map(|family| family.name()).collect();
+        let all = || Family::ALL.into_iter().chain([Family::Device]);
+        all().find(|family| family.name() == text).ok_or_else(|| {
+            let names: Vec<_> = all().map(Family::name).collect();
             format!("no such family; there are {}", names.join(", "))
         })
     }

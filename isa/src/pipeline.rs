@@ -51,7 +51,11 @@ impl Device {
             for figure in unsafe { self.properties.get_pipeline_executable_statistics(&info) }? {
                 let name = unsafe { CStr::from_ptr(figure.name.as_ptr()) }.to_string_lossy();
                 if figure.format == vk::PipelineExecutableStatisticFormatKHR::UINT64 {
-                    figures.record_figure(&name, unsafe { figure.value.u64 });
+                    let value = unsafe { figure.value.u64 };
+                    figures.record_figure(&name, value);
+                    if !self.is_radv {
+                        figures.own.insert(name.into_owned(), value);
+                    }
                 }
             }
             assembly += &unsafe { self.read_assembly(&info) }?;

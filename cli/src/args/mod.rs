@@ -152,7 +152,7 @@ pub struct ExplainArgs {
     #[arg(long)]
     pub dump: bool,
     /// Also print the figures of Mesa's compiler for an AMD GPU, which need not be present: polaris10, vega10, navi10,
-    /// navi21 or navi31
+    /// navi21 or navi31; or `device`, of this machine's GPU by its own driver
     #[arg(long, value_name = "FAMILY")]
     pub isa: Option<Family>,
     /// Also draw the texels that an invocation reads, with weights and messages, to this SVG file

@@ -103,7 +103,8 @@ pub struct IsaArgs {
     /// Hand-written version with loops of each --from kernel, in order
     #[arg(long, value_name = "KERNEL", requires = "from")]
     pub by_hand: Vec<String>,
-    /// AMD GPU family: polaris10, vega10, navi10, navi21 or navi31; may be given several times; by default all of them
+    /// AMD GPU family: polaris10, vega10, navi10, navi21 or navi31; or `device`, the GPU of this machine by its own
+    /// driver; may be given several times; by default all families
     #[arg(long, value_name = "NAME")]
     pub family: Vec<Family>,
 }

@@ -44,7 +44,7 @@ pub struct SweepArgs {
     )]
     pub stage: Vec<Stage>,
     /// Width and height of a compute workgroup, in invocations
-    #[arg(help_heading = "What is varied", long, value_name = "SIZES", value_delimiter = ',', default_value = "256x1", value_parser = size)]
+    #[arg(help_heading = "What is varied", long, value_name = "SIZES", value_delimiter = ',', default_value = "16x16", value_parser = size)]
     pub workgroup: Vec<UVec2>,
     /// Width and height of the pixel block that one compute invocation computes
     #[arg(help_heading = "What is varied", long, value_name = "SIZES", value_delimiter = ',', default_value = "1x1", value_parser = size)]

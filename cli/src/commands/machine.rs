@@ -32,7 +32,11 @@ impl Machine {
 
     /// Prints the statistics, and with `code` the machine code.
     pub fn print(&self, code: bool) {
-        let table = Table::of(self.report.figures.named_figures())
+        let figures = &self.report.figures;
+        let own = figures.own.iter().map(|(name, figure)| (name.as_str(), *figure));
+        // A driver that names its figures itself has none of the others.
+        let common = figures.named_figures().into_iter().filter(|_| figures.own.is_empty());
+        let table = Table::of(common.chain(own))
             .column(&*self.device, |(name, _)| *name)
             .column("a wave", |(_, figure)| *figure)
             .finish();

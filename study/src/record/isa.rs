@@ -97,6 +97,10 @@ impl Record for IsaRecord {
                 },
                 |(.., figures), (k, _)| figures.named_figures()[*k].1,
             )
+            .column(Column::exact("by the driver's names"), |(.., figures)| {
+                let own = figures.own.iter().map(|(name, figure)| format!("{name}: {figure}"));
+                own.collect::<Vec<_>>().join("; ")
+            })
             .finish()
     }
 }

@@ -57,7 +57,14 @@ impl FromStr for Cost {
     fn from_str(text: &str) -> Result<Cost, String> {
         match text.split_once(':') {
             None if text == "time" => Ok(Cost::Time),
-            Some(("isa", family)) => Ok(Cost::Isa(family.parse()?)),
+            Some(("isa", family)) => match family.parse()? {
+                Family::Device => Err(
+                    "this machine's own driver states no cycles: use `time`, or a family such as \
+                                       isa:navi21"
+                        .to_owned(),
+                ),
+                family => Ok(Cost::Isa(family)),
+            },
             _ => Err("use `time`, or `isa:FAMILY` such as isa:navi21".to_owned()),
         }
     }
