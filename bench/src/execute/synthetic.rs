@@ -2,6 +2,7 @@
 
 use super::Inputs;
 use glam::{UVec2, UVec4, Vec2, Vec3, Vec4, vec2, vec3};
+use rayon::prelude::*;
 use straightline_codegen::ir::{Graph, Scalar, Texture, TextureKind};
 use straightline_kernels::prelude::Frame;
 
@@ -58,12 +59,13 @@ pub fn test_inputs(graph: &Graph, size: UVec2) -> Inputs {
 
 fn draw_test_layer(texture: &Texture, size: UVec2, layer: u32) -> Frame<Vec4> {
     let shift = 0.5 + vec2(hash_noise(2 * layer), hash_noise(2 * layer + 1)) - 0.5;
+    let (is_depth, is_normal) = (texture.name.contains("depth"), texture.name.contains("normal"));
     let texel = |x: u32, y: u32| {
         let uv = (vec2(x as f32, y as f32) + shift) / size.as_vec2();
         let surface = Surface::surface_at(uv);
-        if texture.name.contains("depth") {
+        if is_depth {
             Vec4::splat(surface.depth)
-        } else if texture.name.contains("normal") {
+        } else if is_normal {
             surface.normal.extend(0.0)
         } else if texture.components == 1 {
             Vec4::splat(surface.color.x)
@@ -72,12 +74,10 @@ fn draw_test_layer(texture: &Texture, size: UVec2, layer: u32) -> Frame<Vec4> {
             (surface.color + grain).clamp(Vec3::ZERO, Vec3::ONE).extend(1.0)
         }
     };
-    Frame::new(
-        size,
-        (0..size.y)
-            .flat_map(|y| (0..size.x).map(move |x| texel(x, y)))
-            .collect(),
-    )
+    let texels = (0..size.x * size.y)
+        .into_par_iter()
+        .map(|k| texel(k % size.x, k / size.x));
+    Frame::new(size, texels.collect())
 }
 
 /// The surface at a place of the test card.

@@ -56,12 +56,17 @@ impl Bench {
         };
         let count = usize::from(format.components());
         let bytes = |layers: &[Frame<Vec4>]| -> Vec<u8> {
-            let texels = layers.iter().flat_map(Frame::texels);
-            let lanes = texels.flat_map(|t| t.to_array().into_iter().take(count));
-            match format {
-                TextureFormat::Rgba16Float => lanes.flat_map(|v| half::f16::from_f32(v).to_le_bytes()).collect(),
-                _ => lanes.flat_map(f32::to_le_bytes).collect(),
+            let mut bytes = Vec::new();
+            for texel in layers.iter().flat_map(Frame::texels) {
+                let lanes = &texel.to_array()[..count];
+                match format {
+                    TextureFormat::Rgba16Float => {
+                        bytes.extend(lanes.iter().flat_map(|v| half::f16::from_f32(*v).to_le_bytes()));
+                    }
+                    _ => bytes.extend_from_slice(bytemuck::cast_slice(lanes)),
+                }
             }
+            bytes
         };
         let levels: Vec<(UVec2, usize, Vec<u8>)> = std::iter::once(layers)
             .chain(smaller.iter().map(Vec::as_slice))
@@ -121,7 +126,8 @@ impl Bench {
             _ => TextureFormat::Rgba32Uint,
         };
         let texels = layers.iter().flat_map(Frame::texels);
-        let bytes = texels.flat_map(|t| t.to_array()).flat_map(u32::to_le_bytes).collect();
+        let mut bytes = Vec::new();
+        texels.for_each(|texel| bytes.extend_from_slice(bytemuck::bytes_of(texel)));
         let texture = self.texture_of(&[(size, layers.len(), bytes)], dimension, format);
         Ok(texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(view_of(dimension)),
