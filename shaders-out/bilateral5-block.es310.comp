@@ -10,7 +10,7 @@ precision highp int;
 precision highp sampler2D;
 precision highp image2D;
 
-layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;
+layout(local_size_x = 16, local_size_y = 16, local_size_z = 1) in;
 
 layout(binding = 0) uniform sampler2D image;
 layout(binding = 1, rgba16f) uniform writeonly image2D destination;

@@ -15,7 +15,7 @@ int2 size_of_destination() {
 
 static const float4 no_surface = float4(0.0, 0.0, 0.0, -1e30);
 
-[numthreads(256, 1, 1)]
+[numthreads(16, 16, 1)]
 void quad_bilateral(uint3 id : SV_DispatchThreadID) {
     int2 frame = size_of_destination();
     int2 pixel = int2(id.xy) * int2(2, 2);

@@ -9,7 +9,7 @@
 
 const no_surface = vec4f(0.0, 0.0, 0.0, -1e30);
 
-@compute @workgroup_size(256, 1, 1)
+@compute @workgroup_size(16, 16, 1)
 fn quad_bilateral(@builtin(global_invocation_id) id: vec3u) {
     let frame = vec2i(textureDimensions(destination));
     let pixel = vec2i(id.xy) * vec2i(2);

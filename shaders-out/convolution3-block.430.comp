@@ -5,7 +5,7 @@
 // Per block of 2x2 pixels: 9 basic blocks, 75 statements, 16 reads, 0 transcendental calls, at most
 //   80 scalars alive.
 
-layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;
+layout(local_size_x = 16, local_size_y = 16, local_size_z = 1) in;
 
 layout(binding = 0) uniform sampler2D image;
 layout(binding = 1, rgba16f) uniform writeonly image2D destination;

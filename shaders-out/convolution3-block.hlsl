@@ -13,7 +13,7 @@ int2 size_of_destination() {
     return int2(width, height);
 }
 
-[numthreads(256, 1, 1)]
+[numthreads(16, 16, 1)]
 void quad_convolution(uint3 id : SV_DispatchThreadID) {
     int2 frame = size_of_destination();
     int2 pixel = int2(id.xy) * int2(2, 2);

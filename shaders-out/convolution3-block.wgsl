@@ -7,7 +7,7 @@
 @group(0) @binding(0) var image: texture_2d<f32>;
 @group(0) @binding(1) var destination: texture_storage_2d<rgba16float, write>;
 
-@compute @workgroup_size(256, 1, 1)
+@compute @workgroup_size(16, 16, 1)
 fn quad_convolution(@builtin(global_invocation_id) id: vec3u) {
     let frame = vec2i(textureDimensions(destination));
     let pixel = vec2i(id.xy) * vec2i(2);

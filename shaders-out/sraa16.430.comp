@@ -6,7 +6,7 @@
 // Per pixel: 3 basic blocks, 500 statements, 50 texture reads + 9 of colour, 64 weight evaluations,
 //   64 transcendental calls, at most 42 scalars alive.
 
-layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;
+layout(local_size_x = 16, local_size_y = 16, local_size_z = 1) in;
 
 layout(binding = 0) uniform sampler2DArray depth;
 layout(binding = 1) uniform sampler2DArray normal;

@@ -7,7 +7,7 @@
 //   64 transcendental calls, at most 42 scalars alive.
 // GLSL names a texture together with a sampler even where it filters nothing: any sampler will do.
 
-layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;
+layout(local_size_x = 16, local_size_y = 16, local_size_z = 1) in;
 
 layout(set = 0, binding = 0) uniform texture2DArray depth;
 layout(set = 0, binding = 1) uniform texture2DArray normal;

@@ -16,7 +16,7 @@ int2 size_of_destination() {
     return int2(width, height);
 }
 
-[numthreads(256, 1, 1)]
+[numthreads(16, 16, 1)]
 void sraa(uint3 id : SV_DispatchThreadID) {
     int2 frame = size_of_destination();
     int2 pixel = int2(id.xy);

@@ -5,7 +5,7 @@
 // Per pixel: 42 basic blocks, 66 statements, 80 texture reads + 9 of colour, 36 weight evaluations,
 //   72 transcendental calls, at most 39 scalars alive.
 
-layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;
+layout(local_size_x = 16, local_size_y = 16, local_size_z = 1) in;
 
 layout(binding = 0) uniform sampler2DArray depth;
 layout(binding = 1) uniform sampler2DArray normal;

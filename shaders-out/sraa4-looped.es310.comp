@@ -11,7 +11,7 @@ precision highp sampler2D;
 precision highp sampler2DArray;
 precision highp image2D;
 
-layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;
+layout(local_size_x = 16, local_size_y = 16, local_size_z = 1) in;
 
 layout(binding = 0) uniform sampler2DArray depth;
 layout(binding = 1) uniform sampler2DArray normal;

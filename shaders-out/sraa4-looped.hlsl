@@ -17,7 +17,7 @@ int2 size_of_destination() {
 
 static const int2 table[4] = { int2(-2, -6), int2(6, -2), int2(-6, 2), int2(2, 6) };
 
-[numthreads(256, 1, 1)]
+[numthreads(16, 16, 1)]
 void sraa(uint3 id : SV_DispatchThreadID) {
     int2 frame = size_of_destination();
     int2 pixel = int2(id.xy);

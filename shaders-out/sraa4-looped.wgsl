@@ -11,7 +11,7 @@
 
 const table = array<vec2i, 4>(vec2i(-2, -6), vec2i(6, -2), vec2i(-6, 2), vec2i(2, 6));
 
-@compute @workgroup_size(256, 1, 1)
+@compute @workgroup_size(16, 16, 1)
 fn sraa(@builtin(global_invocation_id) id: vec3u) {
     // A variable, since a constant would be copied for each read.
     var table_values = table;

@@ -5,7 +5,7 @@
 // Per pixel: 3 basic blocks, 184 statements, 26 texture reads + 9 of colour, 16 weight evaluations,
 //   16 transcendental calls, at most 32 scalars alive.
 
-layout(local_size_x = 256, local_size_y = 1, local_size_z = 1) in;
+layout(local_size_x = 16, local_size_y = 16, local_size_z = 1) in;
 
 layout(binding = 0) uniform sampler2DArray depth;
 layout(binding = 1) uniform sampler2DArray normal;

@@ -53,7 +53,7 @@ fn is_finite(texel: vec4f) -> bool {
     return all((bitcast<vec4u>(texel) & vec4u(0x7fffffff)) < vec4u(0x7f800000));
 }
 
-@compute @workgroup_size(256, 1, 1)
+@compute @workgroup_size(16, 16, 1)
 fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let frame = vec2i(textureDimensions(destination));
     let pixel = vec2i(id.xy);

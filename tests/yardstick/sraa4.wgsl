@@ -61,7 +61,7 @@ fn add(sum: ptr<function, Sum>, at: vec2i, weight: f32) {
     (*sum).weight += w;
 }
 
-@compute @workgroup_size(256, 1, 1)
+@compute @workgroup_size(16, 16, 1)
 fn sraa(@builtin(global_invocation_id) id: vec3u) {
     let frame = vec2i(textureDimensions(destination));
     let pixel = vec2i(id.xy);

@@ -110,8 +110,7 @@ knobs! {
         region: bool = false, "region",
             region(region: bool) |given| *given = region,
             example (true);
-        /// Width and height of a compute workgroup, in invocations; by default 256x1. With `share`, the invocations that
-        /// share texels; by default 16x16.
+        /// Width and height of a compute workgroup, in invocations; by default 16x16. With `share`, they share texels.
         workgroup: Option<[u32; 2]> = None, "workgroup" ["WxH"],
             workgroup(width: u32, height: u32) |size| *size = Some([width, height]),
             example (8, 8);

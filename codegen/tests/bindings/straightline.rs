@@ -18,7 +18,7 @@ pub mod all {
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "all_kernel";
     /// Invocations in a workgroup.
-    pub const WORKGROUP_SIZE: [u32; 3] = [256, 1, 1];
+    pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
     /// Layout of bind group 0, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("all"),
@@ -282,7 +282,7 @@ pub mod all {
         };
         Shader::generated(
             WGSL,
-            0xbfd3_640a_807d_891d,
+            0xfba7_b595_9ac7_f0cd,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("all"),
@@ -438,7 +438,7 @@ pub mod tile {
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "all_kernel";
     /// Invocations in a workgroup.
-    pub const WORKGROUP_SIZE: [u32; 3] = [256, 1, 1];
+    pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
     /// Layout of bind group 1, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("all"),
@@ -744,7 +744,7 @@ pub mod tile {
         };
         Shader::generated(
             WGSL,
-            0x209f_0e78_905b_73f8,
+            0x128c_1fc1_7815_0778,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("all"),
@@ -942,7 +942,7 @@ pub mod graded {
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "graded";
     /// Invocations in a workgroup.
-    pub const WORKGROUP_SIZE: [u32; 3] = [256, 1, 1];
+    pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
     /// Layout of bind group 0, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("graded"),
@@ -1300,7 +1300,7 @@ pub mod graded {
         };
         Shader::generated(
             WGSL,
-            0x22c8_4a20_0dc2_ea1f,
+            0xef52_a241_6183_b30f,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("graded"),
@@ -1966,7 +1966,7 @@ pub mod waiting {
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "waiting";
     /// Invocations in a workgroup.
-    pub const WORKGROUP_SIZE: [u32; 3] = [256, 1, 1];
+    pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
     /// Layout of bind group 0, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("waiting"),
@@ -2139,7 +2139,7 @@ pub mod waiting {
         };
         Shader::generated(
             WGSL,
-            0x5599_1732_3690_ca49,
+            0x817d_c1ed_c980_55f9,
             Loops::Unproven(Borrowed("`sum_2` does not count in `i32`")),
             Plan {
                 kernel: Borrowed("waiting"),
@@ -2221,7 +2221,7 @@ pub mod sraa {
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "sraa";
     /// Invocations in a workgroup.
-    pub const WORKGROUP_SIZE: [u32; 3] = [256, 1, 1];
+    pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
     /// Layout of bind group 0, for a custom pipeline.
     pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
         label: Some("sraa"),
@@ -2417,7 +2417,7 @@ pub mod sraa {
         };
         Shader::generated(
             WGSL,
-            0xbbf6_b355_8024_4793,
+            0xe497_1f40_3a39_3c63,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("sraa"),

@@ -29,7 +29,7 @@ struct Region {
 
 @group(1) @binding(10) var<uniform> region: Region;
 
-@compute @workgroup_size(256, 1, 1)
+@compute @workgroup_size(16, 16, 1)
 fn all_kernel(@builtin(global_invocation_id) id: vec3u) {
     let within = vec2i(id.xy);
     if any(within >= region.size) {

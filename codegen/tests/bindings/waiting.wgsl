@@ -13,7 +13,7 @@ struct Parameters {
 
 @group(0) @binding(2) var<uniform> parameters: Parameters;
 
-@compute @workgroup_size(256, 1, 1)
+@compute @workgroup_size(16, 16, 1)
 fn waiting(@builtin(global_invocation_id) id: vec3u) {
     let frame = vec2i(textureDimensions(destination));
     let pixel = vec2i(id.xy);

@@ -225,7 +225,7 @@ fn bindings_of_another_text_do_not_compile() {
     compiles(&folder, "bindings.rs", text).unwrap_or_else(|e| panic!("{e}"));
     let wgsl = std::fs::read_to_string(folder.join("shader.wgsl")).expect("written");
     let write = |text: String| std::fs::write(folder.join("shader.wgsl"), text).expect("written");
-    write(wgsl.replace("@workgroup_size(256", "@workgroup_size(128"));
+    write(wgsl.replace("@workgroup_size(16, 16", "@workgroup_size(8, 16"));
     let said = try_rustc(&folder, "bindings.rs", &BINDINGS).expect_err("another text");
     assert!(said.contains("was changed since its bindings were generated"), "{said}");
     // As a checkout on Windows has it.

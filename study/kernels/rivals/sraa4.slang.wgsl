@@ -54,7 +54,7 @@ fn difference_0( a_0 : Surface_0,  b_0 : Surface_0) -> f32
 }
 
 @compute
-@workgroup_size(256, 1, 1)
+@workgroup_size(16, 16, 1)
 fn sraa(@builtin(global_invocation_id) id_0 : vec3<u32>)
 {
     var width_0 : u32;
