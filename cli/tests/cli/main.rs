@@ -11,6 +11,7 @@ mod draw;
 mod emit;
 mod features;
 mod figures;
+mod gpu;
 mod knobs;
 mod output;
 mod page;
