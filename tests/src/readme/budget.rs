@@ -1,6 +1,6 @@
 //! The price lists of the paper: its tables 1 and 2, from the measurements of `budget`.
 
-use super::read_json;
+use super::{in_ms, read_json};
 use serde_json::Value;
 use std::path::Path;
 use straightline_study::statistics::Interval;
@@ -72,7 +72,8 @@ pub fn metrics(files: &[&Path]) -> Result<Table, String> {
             |(budget, _)| format!("ms and ratio, {}", budget.driver),
             |(k, _), (_, filters)| {
                 let found = filters.get(*k).unwrap_or(&Value::Null);
-                format!("{:.0}, {:.2}", number(&found["ms"]["median"]), number(&found["ratio"]))
+                let ms = in_ms(number(&found["ms"]["median"]), 0);
+                format!("{ms}, {:.2}", number(&found["ratio"]))
             },
         )
         .fixed("ratio, paper", 2, |(_, filter)| number(&filter["paper_ratio"]))
@@ -100,8 +101,11 @@ pub fn frames(files: &[&Path]) -> Result<Table, String> {
             |(_, part, frames), (k, _)| {
                 let of = interval(&frames[*k][format!("{part}_ms")])?;
                 Some(match *part {
-                    "net" => format!("**{:.0}** ({:.0} to {:.0})", of.median, of.low, of.high),
-                    _ => format!("{:.0}", of.median),
+                    "net" => {
+                        let [median, low, high] = of.to_array().map(|ms| in_ms(ms, 0));
+                        format!("**{median}** ({low} to {high})")
+                    }
+                    _ => in_ms(of.median, 0),
                 })
             },
         )

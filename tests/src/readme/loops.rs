@@ -1,5 +1,6 @@
 //! Unroll against loop.
 
+use super::in_ms;
 use straightline_study::record::{FormKind, FormRecord, KernelForms, LoopsRecord};
 use straightline_study::statistics::{Interval, Noise};
 use straightline_table::{Cell, Column, Table, TableBuilder};
@@ -22,10 +23,10 @@ pub fn in_short(record: &LoopsRecord) -> Table {
     .column("**unrolled**", |kernel| {
         let form = kernel.form(FormKind::Full)?;
         Some(format!(
-            "**{:.2}**{}, {:.1} ms",
+            "**{:.2}**{}, {} ms",
             form.ratio.median,
             form.mark(noise),
-            form.time.median_ms
+            in_ms(form.time.median_ms, 1)
         ))
     });
     ratios(
@@ -135,7 +136,8 @@ pub fn agreement(once: &LoopsRecord, again: &LoopsRecord) -> Result<Table, Strin
 
 fn time(kernel: &KernelForms) -> Option<Cell> {
     let looped = kernel.form(FormKind::Looped)?;
-    Some(Cell::fixed(looped.time.median_ms, 1).suffixed(" ms"))
+    let ms = looped.time.median_ms;
+    Some(Cell::new(ms.to_string(), in_ms(ms, 1) + " ms"))
 }
 
 fn ratio(kernel: &KernelForms, kind: FormKind, noise: Option<Noise>) -> Option<String> {

@@ -11,6 +11,7 @@ mod fast;
 mod frame;
 mod gathers;
 mod goals;
+mod gpu;
 mod hard;
 mod isa;
 mod loops;
@@ -93,6 +94,8 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "fast" => Ok(fast::mathematics(&read(files, 0)?, &read(files, 1)?)),
         "goals" => goals::table(files),
         "reached" => reached::table(&read(files, 0)?, &read(files, 1)?),
+        "workgroups" => Ok(gpu::workgroups(&read(files, 0)?, &read(files, 1)?)),
+        "registers" => Ok(gpu::registers(&read(files, 0)?)),
         "alive" => alive::registers(&read(files, 0)?),
         "rank" => Ok(rank::correlations(&read(files, 0)?, &read_all(&files[1..])?)),
         "tune" => Ok(tune::scenes(&read_all(files)?)),
@@ -104,7 +107,7 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "crates" => crates::needs(files),
         "sweep" => sweep::factors(&read(files, 0)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, workgroups, registers, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }
@@ -121,6 +124,17 @@ fn read<R: Record>(files: &[&Path], index: usize) -> Result<R, String> {
 
 fn read_all<R: Record>(files: &[&Path]) -> Result<Vec<R>, String> {
     (0..files.len()).map(|index| read(files, index)).collect()
+}
+
+/// Milliseconds with so many decimals, and no fewer than two digits.
+fn in_ms(ms: f64, decimals: usize) -> String {
+    let small = match ms {
+        ..0.1 => 3,
+        0.1..1.0 => 2,
+        1.0..10.0 => 1,
+        _ => 0,
+    };
+    format!("{ms:.*}", decimals.max(small))
 }
 
 /// Reads a file of JSON.

@@ -1,5 +1,6 @@
 //! Gain from sharing work over pixel quads.
 
+use super::in_ms;
 use straightline_manifest::Stage;
 use straightline_study::record::{QuadWay, QuadsRecord};
 use straightline_study::statistics::mark_ratio;
@@ -42,7 +43,7 @@ pub fn ways(record: &QuadsRecord) -> Table {
                 let mut found = of_row(row).filter(|way| way.transport == is && way.stage == *stage);
                 found.next().map_or_else(String::new, |way| {
                     let mark = mark_ratio(noise, way.speedup.median);
-                    format!("{:.0} ms ({:.1}×{mark})", way.median_ms, way.speedup.median)
+                    format!("{} ms ({:.1}×{mark})", in_ms(way.median_ms, 0), way.speedup.median)
                 })
             },
         )

@@ -1,0 +1,80 @@
+//! What was measured on a GPU: forms and workgroups by time, and what its own compiler reports.
+
+use super::in_ms;
+use straightline_isa::Figures;
+use straightline_study::record::{FormKind, IsaRecord, KernelForms, LoopsRecord, SpirvPath};
+use straightline_table::{Cell, Table};
+
+/// Speedups over the looped form of each kernel of `rows`, and of those that `squares` has too in squares.
+pub fn workgroups(squares: &LoopsRecord, rows: &LoopsRecord) -> Table {
+    let in_squares = |kernel: &KernelForms| squares.kernels.iter().find(|other| other.kernel == kernel.kernel);
+    let speedup = |kernel: Option<&KernelForms>, kind: FormKind| {
+        let form = kernel?.form(kind)?;
+        Some(format!("{:.2}", form.ratio.median))
+    };
+    Table::of(&rows.kernels)
+        .column("kernel", |kernel| &kernel.kernel)
+        .column("looped", |kernel| {
+            Some(in_ms(kernel.form(FormKind::Looped)?.time.median_ms, 1) + " ms")
+        })
+        .columns(
+            [
+                ("unbounded", FormKind::LoopedUnchecked),
+                ("hand-optimised", FormKind::LoopedByHand),
+                ("both", FormKind::LoopedByHandUnchecked),
+                ("unrolled", FormKind::Full),
+            ],
+            |(title, _)| *title,
+            |kernel, (_, kind)| speedup(Some(kernel), *kind),
+        )
+        .columns(
+            [
+                ("**unrolled**, 16x16", FormKind::Full),
+                ("2×2 pixels, 16x16", FormKind::FullBlock),
+            ],
+            |(title, _)| *title,
+            |kernel, (_, kind)| speedup(in_squares(kernel), *kind),
+        )
+        .columns(
+            [
+                ("shared by workgroups", FormKind::FullTile),
+                ("f16", FormKind::FullHalf),
+            ],
+            |(title, _)| *title,
+            |kernel, (_, kind)| speedup(Some(kernel), *kind),
+        )
+        .column("off f64 by", |kernel| {
+            Some(Cell::scientific(kernel.form(FormKind::Full)?.difference_999?, 0))
+        })
+        .finish()
+}
+
+/// Registers and bytes of code of each kernel, unrolled and by three ways to leave its loops to the compiler.
+pub fn registers(record: &IsaRecord) -> Table {
+    let mut kernels: Vec<&str> = record.shaders.iter().map(|asked| asked.kernel.as_str()).collect();
+    kernels.dedup();
+    let has_loops = |kernel: &&str| record.figures(kernel, FormKind::Looped, SpirvPath::Naga).is_some();
+    let ways = [
+        ("**unrolled**", FormKind::Full, SpirvPath::Naga),
+        ("looped, unbounded", FormKind::Looped, SpirvPath::Naga),
+        ("looped", FormKind::Looped, SpirvPath::NagaBounded),
+        ("looped, by glslang", FormKind::Looped, SpirvPath::Glslang),
+        ("unrolled, 2×2 pixels", FormKind::FullBlock, SpirvPath::Naga),
+    ];
+    let words = |figures: &Figures| {
+        let spilled = match figures.own.get("Stack Size") {
+            Some(bytes @ 1..) => format!(", {bytes} B on the stack"),
+            _ => String::new(),
+        };
+        let (registers, bytes) = (figures.vector_registers, figures.code_size);
+        format!("{registers} ({:.1} kB{spilled})", bytes as f64 / 1000.0)
+    };
+    Table::of(kernels.into_iter().filter(has_loops))
+        .column("kernel", |kernel| *kernel)
+        .columns(
+            ways,
+            |(title, ..)| *title,
+            |kernel, (_, form, path)| record.figures(kernel, *form, *path).map(words),
+        )
+        .finish()
+}
