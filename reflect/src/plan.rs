@@ -49,7 +49,7 @@ fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {
         ));
     }
     match plan.stage {
-        StagePlan::Compute { workgroup } if entry.workgroup_size != workgroup => Err(format!(
+        StagePlan::Compute { workgroup, .. } if entry.workgroup_size != workgroup => Err(format!(
             "its workgroup size is {:?}, the manifest says {workgroup:?}",
             entry.workgroup_size
         )),

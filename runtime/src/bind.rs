@@ -165,7 +165,7 @@ impl Pass {
 
     /// Checks that one dispatch covers the grid of a kernel without targets, which the caller may have set.
     fn check_grid(&self, whole: [u32; 2], is_grid: bool) -> Result<(), Error> {
-        let StagePlan::Compute { workgroup } = self.plan.stage else {
+        let StagePlan::Compute { workgroup, .. } = self.plan.stage else {
             return Ok(());
         };
         let most = [0, 1].map(|axis| self.abilities.most_pixels(workgroup[axis] * self.plan.block[axis]));

@@ -40,14 +40,20 @@ impl Pipeline {
         let module = source.create_module(device, plan)?;
         let start = Instant::now();
         let pipeline = match plan.stage {
-            StagePlan::Compute { workgroup } => {
+            StagePlan::Compute {
+                workgroup,
+                fills_memory,
+            } => {
                 let pipeline = run_guarded(device, &doing, refused, || {
                     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                         label,
                         layout: Some(&layout.pipeline),
                         module: &module,
                         entry_point: Some(&plan.entry_point),
-                        compilation_options: wgpu::PipelineCompilationOptions::default(),
+                        compilation_options: wgpu::PipelineCompilationOptions {
+                            zero_initialize_workgroup_memory: !fills_memory,
+                            ..wgpu::PipelineCompilationOptions::default()
+                        },
                         cache: None,
                     })
                 })?;

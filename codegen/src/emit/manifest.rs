@@ -116,6 +116,7 @@ impl Resources {
             entry_point: self.entry.clone(),
             entry_points: Default::default(),
             workgroup_size: compute.then_some(self.workgroup_size()),
+            fills_memory: !self.used_shared.is_empty() && !self.is_zeroed(),
             block: self.block,
             features: self.device_features(),
             varyings: self.manifest_varyings().collect(),

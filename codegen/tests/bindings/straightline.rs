@@ -289,6 +289,7 @@ pub mod all {
                 entry_point: Borrowed("all_kernel"),
                 stage: StagePlan::Compute {
                     workgroup: WORKGROUP_SIZE,
+                    fills_memory: false,
                 },
                 block: [1, 1],
                 features: Borrowed(&[]),
@@ -751,6 +752,7 @@ pub mod tile {
                 entry_point: Borrowed("all_kernel"),
                 stage: StagePlan::Compute {
                     workgroup: WORKGROUP_SIZE,
+                    fills_memory: false,
                 },
                 block: [1, 1],
                 features: Borrowed(&[]),
@@ -1307,6 +1309,7 @@ pub mod graded {
                 entry_point: Borrowed("graded"),
                 stage: StagePlan::Compute {
                     workgroup: WORKGROUP_SIZE,
+                    fills_memory: false,
                 },
                 block: [1, 1],
                 features: Borrowed(&[]),
@@ -2146,6 +2149,7 @@ pub mod waiting {
                 entry_point: Borrowed("waiting"),
                 stage: StagePlan::Compute {
                     workgroup: WORKGROUP_SIZE,
+                    fills_memory: false,
                 },
                 block: [1, 1],
                 features: Borrowed(&[]),
@@ -2424,6 +2428,7 @@ pub mod sraa {
                 entry_point: Borrowed("sraa"),
                 stage: StagePlan::Compute {
                     workgroup: WORKGROUP_SIZE,
+                    fills_memory: false,
                 },
                 block: [1, 1],
                 features: Borrowed(&[]),

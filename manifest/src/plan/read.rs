@@ -203,7 +203,10 @@ fn plan_stage(manifest: &Manifest) -> Result<StagePlan, String> {
             };
             let whole = workgroup[0] > 0 && workgroup[1] > 0 && workgroup[2] == 1;
             require(whole, || format!("workgroup_size {workgroup:?} does not tile an image"))?;
-            Ok(StagePlan::Compute { workgroup })
+            Ok(StagePlan::Compute {
+                workgroup,
+                fills_memory: manifest.fills_memory,
+            })
         }
         Stage::Fragment => {
             require(given, || "the stage is fragment, but no colour is given".to_owned())?;

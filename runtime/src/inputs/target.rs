@@ -55,7 +55,7 @@ fn check_target(
     check_shape(Dimension::D2, 1, texture)?;
     let found = texture.format();
     match plan.stage {
-        StagePlan::Compute { workgroup } => {
+        StagePlan::Compute { workgroup, .. } => {
             if found != format {
                 let remedy = "use a texture of that format, or generate the shader for this one";
                 return Err(ViewProblem::Format {

@@ -63,7 +63,10 @@ pub(super) fn check_limits(device: &wgpu::Device, plan: &Plan, last_group: u32) 
             u64::from(limits.max_color_attachments.min(MAX_TARGETS as u32)),
         ));
     }
-    if let StagePlan::Compute { workgroup: [x, y, _] } = plan.stage {
+    if let StagePlan::Compute {
+        workgroup: [x, y, _], ..
+    } = plan.stage
+    {
         let invocations = u64::from(x) * u64::from(y);
         wanted.extend([
             (

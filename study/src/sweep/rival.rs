@@ -85,6 +85,8 @@ impl Rival {
             let mut rival = (*like).clone();
             rival.manifest.hashes.clear();
             rival.manifest.workgroup_size = like.manifest.workgroup_size.map(|_| entry.workgroup_size);
+            // Its memory is not known to be written first.
+            rival.manifest.fills_memory = false;
             rival.files = BTreeMap::from([(Target::Wgsl, text.into_bytes())]);
             return Ok(rival);
         }

@@ -119,7 +119,9 @@ fn plan_of(plan: &Plan) -> TokenStream {
     } = plan;
     let (kernel, entry_point) = (&**kernel, &**entry_point);
     let stage = match stage {
-        StagePlan::Compute { .. } => quote! { StagePlan::Compute { workgroup: WORKGROUP_SIZE } },
+        StagePlan::Compute { fills_memory, .. } => {
+            quote! { StagePlan::Compute { workgroup: WORKGROUP_SIZE, fills_memory: #fills_memory } }
+        }
         StagePlan::Fragment => quote! { StagePlan::Fragment },
     };
     let (across, down) = (Literal::u32_unsuffixed(*across), Literal::u32_unsuffixed(*down));
