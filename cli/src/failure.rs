@@ -1,10 +1,14 @@
-//! Failure of the command line: one error on stderr; exit status 2 for wrong usage and 1 for everything else.
+//! Failure of the command line: one error on stderr; exit status 2 for wrong usage, 130 for an interrupt and 1 for everything
+//! else.
 
 use crate::output;
 use std::fmt::Display;
 use std::io::IsTerminal;
 use std::process::ExitCode;
 use straightline_codegen::diagnostic::{Code, Errors};
+
+/// Exit status of an interrupted program, by the convention of shells.
+pub const INTERRUPTED: u8 = 130;
 
 /// Reason why a command could not do what was requested.
 #[derive(Debug)]
@@ -13,6 +17,9 @@ pub enum Failure {
     Usage(String),
     /// The command failed at its work.
     Failed(String),
+    /// An interrupt ended the work early; results until then are kept.
+    #[cfg(feature = "study")]
+    Interrupted(String),
     /// The kernel, or one of its settings, is wrong.
     Kernel(Errors),
 }
@@ -33,6 +40,11 @@ impl Failure {
             Failure::Failed(message) => {
                 errln!("error: {}", output::limit_lines(&message));
                 ExitCode::from(1)
+            }
+            #[cfg(feature = "study")]
+            Failure::Interrupted(message) => {
+                errln!("error: {}", output::limit_lines(&message));
+                ExitCode::from(INTERRUPTED)
             }
             Failure::Kernel(errors) => {
                 // An unknown kernel, option or value has no source file: a usage error. Emission errors (codes beginning

@@ -1,6 +1,6 @@
 //! Ctrl-C and termination signals: no unfinished file is left on the disk.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, INTERRUPTED};
 use std::sync::atomic::{AtomicBool, Ordering};
 use straightline_codegen::files;
 
@@ -9,9 +9,6 @@ static ASKS: AtomicBool = AtomicBool::new(false);
 
 /// `true` after Ctrl-C requested a stop.
 static PRESSED: AtomicBool = AtomicBool::new(false);
-
-/// Exit status of an interrupted program, by the convention of shells.
-const INTERRUPTED: i32 = 130;
 
 /// Installs the handler for the lifetime of the program. Unless [`defer_interrupt`] was called, an interrupt removes
 /// unfinished files and ends the program.
@@ -22,7 +19,7 @@ pub fn listen_for_interrupt() -> Result<(), Failure> {
             return;
         }
         files::remove_unfinished();
-        std::process::exit(INTERRUPTED);
+        std::process::exit(INTERRUPTED.into());
     })
     .map_err(|error| Failure::Failed(format!("cannot listen to Ctrl-C: {error}")))
 }

@@ -26,7 +26,7 @@ fn variants(record: &Value) -> &Vec<Value> {
 #[test]
 fn every_combination_is_measured_beside_its_baseline() {
     let out = scratch("sweep-product").join("out");
-    let kernel = here("examples/sweep/convolution.rs");
+    let kernel = here("examples/sweeps/convolution.rs");
     let more = [
         "--set",
         "radius=1..=2",
@@ -72,7 +72,7 @@ fn every_combination_is_measured_beside_its_baseline() {
 #[test]
 fn further_settings_are_varied() {
     let out = scratch("sweep-vary").join("out");
-    let kernel = here("examples/sweep/convolution.rs");
+    let kernel = here("examples/sweeps/convolution.rs");
     let more = [
         "--vary",
         "math=exact,fast",
@@ -136,7 +136,7 @@ fn equal_shaders_show_the_noise() {
 fn what_is_refused_stays_in_the_record_with_the_reason() {
     let folder = scratch("sweep-refused");
     let out = folder.join("out");
-    let kernel = here("examples/sweep/convolution.rs");
+    let kernel = here("examples/sweeps/convolution.rs");
     let table = sweep(&kernel, &out, &["--set", "radius=4,99", "--unroll", "none"]);
     let record = record(&out);
     let [good, bad] = &variants(&record)[..] else {
@@ -151,7 +151,7 @@ fn what_is_refused_stays_in_the_record_with_the_reason() {
 fn rivals_are_measured_along() {
     let folder = scratch("sweep-rivals");
     let out = folder.join("out");
-    let kernel = here("examples/sweep/convolution.rs");
+    let kernel = here("examples/sweeps/convolution.rs");
     for radius in ["2", "3"] {
         let set = format!("radius={radius}");
         let name = format!("row-{radius}");
@@ -192,7 +192,7 @@ fn rivals_are_measured_along() {
 #[test]
 fn shards_are_joined_and_runs_compared() {
     let folder = scratch("sweep-shards");
-    let kernel = here("examples/sweep/convolution.rs");
+    let kernel = here("examples/sweeps/convolution.rs");
     let [first, second, whole] = ["first", "second", "whole"].map(|name| folder.join(name));
     let vary = ["--set", "radius=1..=3"];
     sweep(&kernel, &first, &[&vary[..], &["--shard", "1/2"]].concat());
@@ -214,13 +214,13 @@ fn shards_are_joined_and_runs_compared() {
     fails(
         &["study", "merge", &one, &one, "--out", whole.to_str().unwrap()],
         1,
-        &["shard 1 is there twice"],
+        &["shard 1/2 is there twice"],
     );
     let all = json(&whole);
     fails(
         &["study", "merge", &all, "--out", whole.to_str().unwrap()],
         1,
-        &["no shard"],
+        &["no shard: it has the whole sweep"],
     );
 
     // A record does not differ from itself, and does from one in which unrolled shaders took half the time.
@@ -240,9 +240,109 @@ fn shards_are_joined_and_runs_compared() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("3 of 3 variants differ"));
 }
 
+/// A property of a record, as a path of names, and another value for it.
+type Change = (&'static [&'static str], Value);
+
+/// Every refusal names the shards that it is about.
+#[test]
+fn shards_that_do_not_belong_together_are_named() {
+    let folder = scratch("sweep-unlike");
+    let kernel = here("examples/sweeps/convolution.rs");
+    let shards = ["1/3", "2/3", "3/3"].map(|shard| {
+        let out = folder.join(shard.replace('/', "-of-"));
+        sweep(&kernel, &out, &["--set", "radius=1..=3", "--shard", shard]);
+        out.join("sweep.json").to_str().unwrap().to_owned()
+    });
+    let [one, two, three] = &shards;
+    let out = folder.join("whole");
+    let refused = |records: &[&str], says: &[&str]| {
+        let out = ["--out", out.to_str().unwrap()];
+        fails(&[&["study", "merge"], records, &out].concat(), 1, says);
+    };
+    let changed = |(path, value): Change| {
+        let text = std::fs::read_to_string(two).expect("a record");
+        let mut record: Value = serde_json::from_str(&text).expect("JSON");
+        *path.iter().fold(&mut record, |at, name| &mut at[*name]) = value;
+        write(&folder, "changed.json", &record.to_string())
+    };
+    let changes: [(Change, &[&str]); 7] = [
+        (
+            (&["adapter"], "another".into()),
+            &["different adapters: ", "(1/3, 3/3), `another` (2/3)"],
+        ),
+        (
+            (&["size"], [64, 32].into()),
+            &["different sizes: `48x32` (1/3, 3/3), `64x32` (2/3)"],
+        ),
+        ((&["source"], "0".into()), &["different source texts: ", "`0` (2/3)"]),
+        (
+            (&["rounds"], 5.into()),
+            &["different numbers of rounds: `3` (1/3, 3/3), `5` (2/3)"],
+        ),
+        (
+            (&["environment", "commit"], "0abc".into()),
+            &["different commits: ", "`0abc` (2/3)"],
+        ),
+        (
+            (&["complete"], false.into()),
+            &["shards are interrupted: 2/3; measure them again"],
+        ),
+        (
+            (&["shard", "count"], 4.into()),
+            &["different divisions of the sweep: 1/3, 2/4, 3/3"],
+        ),
+    ];
+    for (change, says) in changes {
+        refused(&[one, &changed(change), three], says);
+    }
+    refused(&[three], &["shards are missing: 1/3, 2/3; measure them again"]);
+    let gone = folder.join("gone.json").to_str().unwrap().to_owned();
+    refused(&[one, &gone, "nowhere.json"], &["gone.json", "nowhere.json"]);
+    assert!(is_empty(&out));
+}
+
+/// An engine sees by the status that a shard is to be taken again.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_shard_is_a_failure() {
+    let out = scratch("sweep-interrupted").join("out");
+    let kernel = here("examples/sweeps/convolution.rs");
+    let words = ["study", "sweep", &kernel, "--size", "48x32", "--rounds", "1000"];
+    let more = [
+        "--set",
+        "radius=1..=9",
+        "--shard",
+        "2/3",
+        "--out",
+        out.to_str().unwrap(),
+    ];
+    // On a busy machine a signal may come before the sweep listens, and nothing is measured.
+    for seconds in [2, 4, 8] {
+        let child = std::process::Command::new(env!("CARGO_BIN_EXE_straightline"))
+            .args([&words[..], &more].concat())
+            .stderr(std::process::Stdio::piped())
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .expect("the binary runs");
+        std::thread::sleep(std::time::Duration::from_secs(seconds));
+        let killed = std::process::Command::new("kill")
+            .args(["-TERM", &child.id().to_string()])
+            .status();
+        assert!(killed.expect("kill").success());
+        let output = child.wait_with_output().expect("an end");
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(130), "{error}");
+        if !is_empty(&out) {
+            assert!(error.contains("shard 2/3 was interrupted"), "{error}");
+            break;
+        }
+    }
+    assert_eq!(record(&out)["complete"], false);
+}
+
 #[test]
 fn settings_that_are_no_axes_are_refused() {
-    let kernel = here("examples/sweep/convolution.rs");
+    let kernel = here("examples/sweeps/convolution.rs");
     for (vary, says) in [
         ("mat=exact,fast", "did you mean `math`?"),
         ("math=exact,quick", "unknown mathematics `quick`"),
@@ -275,7 +375,7 @@ fn settings_that_are_no_axes_are_refused() {
 fn what_cannot_be_swept_is_refused_before_any_work() {
     let folder = scratch("sweep-bad");
     let out = folder.join("out");
-    let kernel = here("examples/sweep/convolution.rs");
+    let kernel = here("examples/sweeps/convolution.rs");
     let bad = |more: &[&str], status: i32, says: &[&str]| {
         let words = ["study", "sweep", &kernel, "--out", out.to_str().unwrap()];
         fails(&[&words[..], &SMALL, more].concat(), status, says);
@@ -322,7 +422,7 @@ fn what_cannot_be_swept_is_refused_before_any_work() {
 fn inputs_are_those_that_are_given() {
     let folder = scratch("sweep-inputs");
     let out = folder.join("out");
-    let kernel = here("examples/sweep/convolution.rs");
+    let kernel = here("examples/sweeps/convolution.rs");
     let picture = folder.join("grey.png").to_str().unwrap().to_owned();
     let text = "pub fn grey(pixel: IVec2) -> Vec4 { Vec4::splat(0.5) }\n";
     let grey = write(&folder, "grey.rs", text);
@@ -338,7 +438,7 @@ fn inputs_are_those_that_are_given() {
 #[test]
 fn rounds_end_when_all_is_sure() {
     let out = scratch("sweep-until").join("out");
-    let kernel = here("examples/sweep/convolution.rs");
+    let kernel = here("examples/sweeps/convolution.rs");
     let words = [
         "study", "sweep", &kernel, "--size", "48x32", "--rounds", "40", "--until", "100%",
     ];

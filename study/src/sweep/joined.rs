@@ -2,7 +2,7 @@
 
 use crate::record::{Measured, Shard, SweepRecord, Swept};
 use crate::statistics::{Interval, ratios_by_round};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Why records do not belong together.
 #[derive(Debug, thiserror::Error, PartialEq)]
@@ -10,43 +10,64 @@ pub enum JoinError {
     /// There is none.
     #[error("there is no record to join")]
     None,
-    /// A record is whole, or of a sweep in another number of shards.
-    #[error("the record of {date} is no shard of {count}")]
-    NoShard {
+    /// A record is of a whole sweep.
+    #[error("the record of {date} is no shard: it has the whole sweep")]
+    Whole {
         /// Time at which the record's run began.
         date: String,
-        /// Of how many the first is one.
-        count: u32,
+    },
+    /// The sweep was divided in several ways.
+    #[error("the shards are of different divisions of the sweep: {}", shards.join(", "))]
+    Divisions {
+        /// Names of the shards.
+        shards: Vec<String>,
     },
     /// Two are the same shard.
-    #[error("shard {index} is there twice")]
+    #[error("shard {shard} is there twice")]
     Twice {
-        /// Index of the shard.
-        index: u32,
+        /// Name of the shard.
+        shard: String,
     },
-    /// Shards are missing.
-    #[error("shards are missing: {}", missing.join(", "))]
-    Missing {
+    /// Shards are missing, or were interrupted.
+    #[error("{}; measure them again by `--shard`", describe_gaps(missing, interrupted))]
+    Incomplete {
         /// Names of the missing shards.
         missing: Vec<String>,
+        /// Names of the shards whose run was interrupted.
+        interrupted: Vec<String>,
     },
-    /// Two records differ in what must be the same.
-    #[error("the records have different {what}: `{first}` and `{second}`")]
+    /// Records differ in a property that they must share.
+    #[error("the {kind} have different {property}: {}", describe_sides(sides))]
     Differ {
-        /// In what.
-        what: &'static str,
-        /// That of the first.
-        first: String,
-        /// That of the other.
-        second: String,
+        /// Shards of a sweep, or whole records.
+        kind: &'static str,
+        /// Name of the property, in the plural.
+        property: &'static str,
+        /// Each value, with the names of the records that have it.
+        sides: Vec<(String, Vec<String>)>,
     },
 }
 
+fn describe_gaps(missing: &[String], interrupted: &[String]) -> String {
+    let lists = [("missing", missing), ("interrupted", interrupted)];
+    let lists = lists.iter().filter(|(_, shards)| !shards.is_empty());
+    let lists = lists.map(|(state, shards)| format!("shards are {state}: {}", shards.join(", ")));
+    lists.collect::<Vec<_>>().join("; ")
+}
+
+fn describe_sides(sides: &[(String, Vec<String>)]) -> String {
+    let sides = sides.iter();
+    let sides = sides.map(|(value, names)| format!("`{value}` ({})", names.join(", ")));
+    sides.collect::<Vec<_>>().join(", ")
+}
+
 /// Names and values that must be the same in records that are put together.
-fn shared_properties(record: &SweepRecord) -> [(&'static str, String); 9] {
+fn shared_properties(record: &SweepRecord) -> [(&'static str, String); 12] {
     let axes = record.axes.iter();
     let axes = axes.map(|axis| format!("{}={}", axis.name, axis.values.join(",")));
-    let circumstances = &record.circumstances;
+    let (circumstances, environment) = (&record.circumstances, &record.environment);
+    let commit = environment.commit.as_deref();
+    let until = record.until.map(|until| format!("{} %", 100.0 * until));
     [
         ("kernels", record.kernel.clone()),
         ("source texts", record.source.clone()),
@@ -54,49 +75,77 @@ fn shared_properties(record: &SweepRecord) -> [(&'static str, String); 9] {
         ("baselines", format!("{:?}", record.baseline)),
         ("inputs", record.input.clone()),
         ("sizes", format!("{}x{}", circumstances.size[0], circumstances.size[1])),
+        ("numbers of rounds", circumstances.rounds.to_string()),
+        ("values of --until", until.unwrap_or_else(|| "none".to_owned())),
         ("adapters", circumstances.adapter.clone()),
         ("processors", circumstances.processor.clone()),
-        ("generators", record.environment.generator.clone()),
+        ("generators", environment.generator.clone()),
+        ("commits", commit.unwrap_or("none").to_owned()),
     ]
+}
+
+/// Finds the first property in which named records differ, among those that `counts` accepts.
+fn check_shared(
+    kind: &'static str,
+    records: &[(String, &SweepRecord)],
+    counts: impl Fn(&str) -> bool,
+) -> Result<(), JoinError> {
+    let properties: Vec<_> = records.iter().map(|(_, record)| shared_properties(record)).collect();
+    let Some(first) = properties.first() else {
+        return Ok(());
+    };
+    for (k, (property, _)) in first.iter().enumerate().filter(|(_, (property, _))| counts(property)) {
+        let mut sides: Vec<(String, Vec<String>)> = Vec::new();
+        for ((name, _), own) in records.iter().zip(&properties) {
+            match sides.iter_mut().find(|(value, _)| *value == own[k].1) {
+                Some((_, names)) => names.push(name.clone()),
+                None => sides.push((own[k].1.clone(), vec![name.clone()])),
+            }
+        }
+        if sides.len() > 1 {
+            return Err(JoinError::Differ { kind, property, sides });
+        }
+    }
+    Ok(())
 }
 
 /// All shards of a sweep as one record; its circumstances are those of the first.
 ///
 /// # Errors
 ///
-/// If one is missing, is there twice, or was not measured under the same circumstances.
+/// If one is missing, interrupted or there twice, or was not measured under the same circumstances.
 pub fn join_shards(records: &[SweepRecord]) -> Result<SweepRecord, JoinError> {
-    let first = records.first().ok_or(JoinError::None)?;
-    let count = first.shard.map_or(0, |shard| shard.count);
     let mut shards: BTreeMap<u32, &SweepRecord> = BTreeMap::new();
+    let mut named = Vec::new();
+    let mut counts = BTreeSet::new();
     for record in records {
-        let Some(Shard { index, .. }) = record.shard.filter(|shard| shard.count == count) else {
-            return Err(JoinError::NoShard {
-                date: record.circumstances.date.clone(),
-                count,
-            });
-        };
-        for ((what, one), (_, other)) in shared_properties(first).into_iter().zip(shared_properties(record)) {
-            if one != other {
-                return Err(JoinError::Differ {
-                    what,
-                    first: one,
-                    second: other,
-                });
-            }
-        }
+        let date = || record.circumstances.date.clone();
+        let shard = record.shard.ok_or_else(|| JoinError::Whole { date: date() })?;
+        named.push((shard.to_string(), record));
+        counts.insert(shard.count);
+    }
+    if counts.len() > 1 {
+        let shards = named.into_iter().map(|(name, _)| name).collect();
+        return Err(JoinError::Divisions { shards });
+    }
+    let count = counts.pop_first().ok_or(JoinError::None)?;
+    for (record, (shard, _)) in records.iter().zip(&named) {
+        let index = record.shard.map_or(0, |shard| shard.index);
         if shards.insert(index, record).is_some() {
-            return Err(JoinError::Twice { index });
+            return Err(JoinError::Twice { shard: shard.clone() });
         }
     }
+    check_shared("shards", &named, |_| true)?;
     let missing = (1..=count).filter(|index| !shards.contains_key(index));
-    let missing: Vec<String> = missing.map(|index| format!("{index}/{count}")).collect();
-    if !missing.is_empty() {
-        return Err(JoinError::Missing { missing });
+    let missing: Vec<String> = missing.map(|index| Shard { index, count }.to_string()).collect();
+    let interrupted = named.iter().filter(|(_, record)| !record.circumstances.complete);
+    let interrupted: Vec<String> = interrupted.map(|(shard, _)| shard.clone()).collect();
+    if !missing.is_empty() || !interrupted.is_empty() {
+        return Err(JoinError::Incomplete { missing, interrupted });
     }
+    let first = &records[0];
     let mut whole = first.clone();
     whole.shard = None;
-    whole.circumstances.complete = records.iter().all(|record| record.circumstances.complete);
     let mut variants: Vec<Swept> = shards.values().flat_map(|record| record.variants.clone()).collect();
     variants.sort_by_key(|variant| sort_key(first, variant));
     whole.variants = variants;
@@ -143,15 +192,10 @@ pub struct Compared {
 ///
 /// If they are not of one kernel and one baseline.
 pub fn compare_records(first: &SweepRecord, second: &SweepRecord, tolerance: f64) -> Result<Vec<Compared>, JoinError> {
-    for ((what, one), (_, other)) in shared_properties(first).into_iter().zip(shared_properties(second)) {
-        if ["kernels", "baselines"].contains(&what) && one != other {
-            return Err(JoinError::Differ {
-                what,
-                first: one,
-                second: other,
-            });
-        }
-    }
+    let named = [("first".to_owned(), first), ("second".to_owned(), second)];
+    check_shared("records", &named, |property| {
+        ["kernels", "baselines"].contains(&property)
+    })?;
     let pairs: Vec<(&Swept, [Vec<f64>; 2])> = first
         .variants
         .iter()

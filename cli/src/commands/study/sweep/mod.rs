@@ -14,7 +14,7 @@ use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel};
 use straightline_manifest::hash_of_text;
 use straightline_study::progress::Progress;
-use straightline_study::record::{Record, SweepRecord};
+use straightline_study::record::{Record, Shard, SweepRecord};
 use straightline_study::sweep::{self, RESERVED, Rival, Space, Sweep, SweepError};
 
 /// Minimum time for one measurement of a shader.
@@ -74,13 +74,33 @@ pub fn measure_sweep(common: &CommonArgs, args: &SweepArgs, progress: &mut Progr
     record.write(&common.out).map_err(Failure::from_error)?;
     print::print_record(&record);
     print_paths(common);
-    Ok(())
+    check_complete(&record, args.shard)
 }
 
-/// Writes all shards as one record.
+/// Fails for an interrupted record, so that an engine which runs shards takes this one again.
+fn check_complete(record: &SweepRecord, shard: Option<Shard>) -> Result<(), Failure> {
+    let of = shard.map_or("the sweep".to_owned(), |shard| format!("shard {shard}"));
+    match record.circumstances.complete {
+        true => Ok(()),
+        false => Err(Failure::Interrupted(format!(
+            "{of} was interrupted: its record is not complete"
+        ))),
+    }
+}
+
+/// Writes all shards as one record. Names every record that cannot be read.
 pub fn merge_shards(common: &CommonArgs, args: &MergeArgs) -> Result<(), Failure> {
-    let records: Result<Vec<_>, _> = args.records.iter().map(|path| SweepRecord::read(path)).collect();
-    let record = sweep::join_shards(&records.map_err(Failure::from_error)?).map_err(Failure::from_error)?;
+    let (mut records, mut unreadable) = (Vec::new(), Vec::new());
+    for path in &args.records {
+        match SweepRecord::read(path) {
+            Ok(record) => records.push(record),
+            Err(error) => unreadable.push(error.to_string()),
+        }
+    }
+    if !unreadable.is_empty() {
+        return Err(Failure::Failed(unreadable.join("\n")));
+    }
+    let record = sweep::join_shards(&records).map_err(Failure::from_error)?;
     record.write(&common.out).map_err(Failure::from_error)?;
     print::print_record(&record);
     print_paths(common);
@@ -203,7 +223,7 @@ fn to_failure(error: SweepError) -> Failure {
 
 fn to_sweep_error(failure: Failure) -> SweepError {
     SweepError::Given(match failure {
-        Failure::Usage(message) | Failure::Failed(message) => message,
+        Failure::Usage(message) | Failure::Failed(message) | Failure::Interrupted(message) => message,
         Failure::Kernel(errors) => errors.render(false),
     })
 }
