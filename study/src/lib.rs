@@ -16,6 +16,7 @@ pub mod quality;
 pub mod record;
 pub mod report;
 pub mod statistics;
+pub mod steps;
 pub mod sweep;
 pub mod tune;
 pub mod turns;

@@ -36,7 +36,7 @@ pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};
 pub use straightline_isa::Family;
 #[cfg(feature = "study")]
 pub use study::{
-    CommonArgs, ErrorArgs, FilmArgs, FrameArgs, HardArgs, IsaArgs, LoopsArgs, MotionArgs, Study, StudyArgs,
+    AllArgs, CommonArgs, ErrorArgs, FilmArgs, FrameArgs, HardArgs, IsaArgs, LoopsArgs, MotionArgs, Study, StudyArgs,
 };
 #[cfg(feature = "study")]
 pub use sweep::{MergeArgs, RecordsArgs, SweepArgs};

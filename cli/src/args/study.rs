@@ -72,6 +72,8 @@ pub enum Study {
     Merge(MergeArgs),
     /// Compare two records of a sweep; exit status 1 if they differ
     Compare(RecordsArgs),
+    /// Take every record of the documents again, with --quick or --full; kept where it is complete in --out
+    All(AllArgs),
     /// Write the report page again from the records in the folder
     Report,
 }
@@ -107,6 +109,16 @@ pub struct IsaArgs {
     /// driver; may be given several times; by default all families
     #[arg(long, value_name = "NAME")]
     pub family: Vec<Family>,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct AllArgs {
+    /// Sizes and rounds of the documents: hours
+    #[arg(long, conflicts_with = "quick")]
+    pub full: bool,
+    /// Restrict to this record, by its name in study/records without extension; may be given several times
+    #[arg(long, value_name = "RECORD")]
+    pub only: Vec<String>,
 }
 
 #[derive(Clone, Debug, Args)]

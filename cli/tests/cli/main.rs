@@ -1,5 +1,6 @@
 //! The command, as a user runs it.
 
+mod all;
 mod budget;
 mod captions;
 mod capture;

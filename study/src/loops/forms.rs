@@ -102,7 +102,8 @@ fn read_count(compiled: &Compiled) -> u32 {
     compiled.in_blocks().counts.reads.values().sum()
 }
 
-fn emit_options(kind: FormKind) -> EmitOptions {
+/// Returns the way in which a form is written.
+pub fn emit_options(kind: FormKind) -> EmitOptions {
     EmitOptions::new()
         .stage(Stage::Compute)
         .format(Format::Rgba32Float)

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use straightline_bench::execute::{Bench, ExecuteError, Inputs, Job, Uploaded, Uploads, Work, interpret_kernel};
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::{Compiled, Format, Settings, Unroll};
+use straightline_codegen::{Compiled, Settings, Unroll};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::hash_of_text;
 use straightline_runtime::{Pass, PassOptions};
@@ -73,7 +73,8 @@ pub fn measure_group(
             return Ok(None);
         }
         if let Ok(compiled) = compiled {
-            match emit_variant(variant, compiled)
+            match variant
+                .emit(compiled)
                 .and_then(|emitted| stand.prepare_shader(at, emitted, variant.loops, false))
             {
                 Ok(variant) => ready.push(variant),
@@ -135,16 +136,6 @@ fn compile_reference(sweep: &Sweep, group: &[Variant], compiled: &[Result<Compil
         .unroll(Unroll::Full);
     let full = sweep.kernel.compile(&settings).ok();
     full.or_else(|| compiled[first].as_ref().ok().cloned())
-}
-
-fn emit_variant(variant: &Variant, compiled: &Compiled) -> Result<Emitted, String> {
-    let options = variant.spec()?.emit;
-    let options = options
-        .format(Format::Rgba32Float)
-        .targets([Target::Wgsl, Target::Spirv]);
-    compiled
-        .emit(&options)
-        .map_err(|errors| errors.first_message().to_owned())
 }
 
 /// Device and inputs that variants are run with.

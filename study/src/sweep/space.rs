@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use straightline_codegen::emit::EmitOptions;
+use straightline_codegen::emit::{EmitOptions, Emitted, Target};
 use straightline_codegen::spec::{Arity, Knob, Part};
-use straightline_codegen::{Kernel, ShaderSpec, Stage, Unroll};
+use straightline_codegen::{Compiled, Format, Kernel, ShaderSpec, Stage, Unroll};
 use straightline_kernels::OptionText;
 
 /// Treatment of a loop left in the shader.
@@ -199,6 +199,55 @@ impl Variant {
         self.options.iter().cloned().chain(knobs).chain(fixed).collect()
     }
 
+    /// The variant of a record, from the value of every axis.
+    ///
+    /// # Errors
+    ///
+    /// The value that is none of its axis.
+    pub fn from_settings(
+        kernel: &Kernel,
+        axes: &[Axis],
+        settings: &BTreeMap<String, String>,
+    ) -> Result<Variant, String> {
+        let value = |name: &str| {
+            let value = settings.get(name).map(String::as_str);
+            value.ok_or_else(|| format!("`{name}` has no value"))
+        };
+        let (mut options, mut knobs) = (Vec::new(), Vec::new());
+        for axis in axes.iter().filter(|axis| !RESERVED.contains(&axis.name.as_str())) {
+            let option = (axis.name.clone(), value(&axis.name)?.to_owned());
+            // An option of the kernel takes precedence over a setting of that name.
+            match kernel.option_values(std::slice::from_ref(&option)) {
+                Ok(_) => options.push(option),
+                Err(_) => knobs.push((varied_knob(&option.0)?.name, option.1)),
+            }
+        }
+        let loops = [Loops::Bounded, Loops::Unbounded];
+        Ok(Variant {
+            options,
+            knobs,
+            unroll: value("unroll")?.parse()?,
+            loops: loops
+                .into_iter()
+                .find(|loops| value("loops") == Ok(loops.name()))
+                .ok_or("`loops` has no such value")?,
+            stage: value("stage")?.parse()?,
+            workgroup: parse_size(value("workgroup")?)?,
+            block: parse_size(value("block")?)?,
+        })
+    }
+
+    /// The shader, as a sweep measures it.
+    pub(crate) fn emit(&self, compiled: &Compiled) -> Result<Emitted, String> {
+        let options = self.spec()?.emit;
+        let options = options
+            .format(Format::Rgba32Float)
+            .targets([Target::Wgsl, Target::Spirv]);
+        compiled
+            .emit(&options)
+            .map_err(|errors| errors.first_message().to_owned())
+    }
+
     /// The description of its shader.
     ///
     /// # Errors
@@ -237,6 +286,12 @@ fn combine_values<'v, N: Clone>(all: impl Iterator<Item = (N, &'v [String])>) ->
 
 fn format_size(size: &[u32; 2]) -> String {
     format!("{}x{}", size[0], size[1])
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once('x');
+    let sides = sides.and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+    sides.ok_or_else(|| format!("`{text}` is no size such as 16x16"))
 }
 
 /// A value of an option as `kernel` spells it; as it is if the kernel refuses it.

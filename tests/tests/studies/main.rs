@@ -5,5 +5,6 @@ mod common;
 mod plain;
 mod quality;
 mod readme;
+mod steps;
 mod sweep;
 mod tune;

@@ -1,6 +1,7 @@
 //! `study`: unrolled against looped forms, speed against error, hard cases and sweeps; with records, and one page for all
 //! of them.
 
+mod all;
 pub mod error;
 mod film;
 mod frame;
@@ -50,6 +51,7 @@ pub fn run_study(args: &StudyArgs) -> Result<(), Failure> {
         Some(Study::Sweep(args)) => return sweep::measure_sweep(common, args, &mut progress),
         Some(Study::Merge(args)) => return sweep::merge_shards(common, args),
         Some(Study::Compare(args)) => return sweep::compare_records(args),
+        Some(Study::All(args)) => return all::take_records(common, args, &progress),
         Some(Study::Report) => {}
         None => run_all_studies(common, &mut progress)?,
     }
