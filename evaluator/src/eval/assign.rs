@@ -97,6 +97,7 @@ impl Evaluator<'_> {
                 }
                 Ok(Value::Array(elements))
             }
+            (old, Step::Slice { from, len }) => self.replace_in_slice(old, (*from, *len), rest, new, span),
             // A vector is temporarily an array of its components.
             (Value::Node(id), Step::Index(_)) if !self.ty(id).is_array() && self.ty(id).component_count() > 1 => {
                 let (kind, lanes) = (

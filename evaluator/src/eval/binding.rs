@@ -143,6 +143,7 @@ impl Evaluator<'_> {
             }
             (value, Step::Field(name)) => self.value_field(value, name, span),
             (value, Step::Index(index)) => self.array_element(value, index, span),
+            (value, Step::Slice { from, len }) => self.array_slice(value, *from, *len, span),
             (value, Step::VariantField(k, name)) => self.variant_field(value, *k, name, span),
         }
     }

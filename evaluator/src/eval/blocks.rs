@@ -68,6 +68,8 @@ impl Evaluator<'_> {
                             .and_then(|v| self.ascribe_type(v, ty.as_ref(), init.span))
                         {
                             Ok(value) => value,
+                            // An error in the library belongs to the call.
+                            Err(exit @ Exit::Error(_)) if span.file == crate::front::std::FILE => return Err(exit),
                             Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
                                 self.record_error(exit);
                                 Value::Poison
@@ -86,6 +88,7 @@ impl Evaluator<'_> {
                 }
                 Statement::Expr(expr) => match self.eval_expr(expr) {
                     Ok(_) => {}
+                    Err(exit @ Exit::Error(_)) if expr.span.file == crate::front::std::FILE => return Err(exit),
                     Err(exit @ (Exit::Error(_) | Exit::Noted)) => {
                         self.record_error(exit);
                     }

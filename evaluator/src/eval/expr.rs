@@ -79,6 +79,9 @@ impl Evaluator<'_> {
                     Some(place) => {
                         let index = self.eval_expr(index)?;
                         let whole = self.read_place(&place, span)?;
+                        if let Some((from, len)) = self.range_of_index(&whole, &index, span)? {
+                            return self.array_slice(&whole, from, len, span);
+                        }
                         match self.index_of_trait(&whole, None, &index, span)? {
                             Some(value) => Ok(value),
                             None => self.read_place(&place.with_step(Step::Index(index)), span),
@@ -86,6 +89,9 @@ impl Evaluator<'_> {
                     }
                     None => {
                         let (base, index) = (self.eval_value(base)?, self.eval_value(index)?);
+                        if let Some((from, len)) = self.range_of_index(&base, &index, span)? {
+                            return self.array_slice(&base, from, len, span);
+                        }
                         match self.index_of_trait(&base, None, &index, span)? {
                             Some(value) => Ok(value),
                             None => self.array_element(&base, &index, span),
@@ -93,6 +99,7 @@ impl Evaluator<'_> {
                     }
                 }
             }
+            ExprKind::Slice(base, bounds) => self.eval_slice(base, bounds, span),
             ExprKind::If(condition, then, otherwise, branches) => {
                 self.eval_if(condition, then, otherwise.as_deref(), *branches, Tail::Open, span)
             }

@@ -46,6 +46,7 @@ mod results;
 mod scope;
 mod sequence;
 mod shape;
+mod slices;
 mod states;
 mod tables;
 mod textures;

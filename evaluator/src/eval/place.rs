@@ -62,12 +62,26 @@ impl Evaluator<'_> {
                 let index = self.eval_expr(index);
                 self.writing = writing;
                 let (index, whole) = (index?, self.read_place(&base, expr.span)?);
+                if let Some((from, len)) = self.range_of_index(&whole, &index, expr.span)? {
+                    return Ok(Some(base.with_step(Step::Slice { from, len })));
+                }
                 let written = writing.then_some(&base);
                 match self.index_of_trait(&whole, written, &index, expr.span)? {
                     Some(Value::Ref(place)) => self.follow_references((*place).clone(), expr.span).map(Some),
                     Some(value) => Ok(Some(self.add_temporary(value))),
                     None => Ok(Some(base.with_step(Step::Index(index)))),
                 }
+            }
+            ExprKind::Slice(base, bounds) => {
+                let Some(base) = self.base_place(base)? else {
+                    return Ok(None);
+                };
+                let writing = std::mem::take(&mut self.writing);
+                let bounds = self.eval_bounds(bounds);
+                self.writing = writing;
+                let (bounds, whole) = (bounds?, self.read_place(&base, expr.span)?);
+                let (from, len) = self.slice_extent(&whole, &bounds, expr.span)?;
+                Ok(Some(base.with_step(Step::Slice { from, len })))
             }
             ExprKind::Deref(reference) => {
                 let Some(place) = self.eval_place(reference)? else {
@@ -117,6 +131,7 @@ impl Evaluator<'_> {
             value = match step {
                 Step::Field(field) => self.value_field(&value, field, span)?,
                 Step::Index(index) => self.array_element(&value, index, span)?,
+                Step::Slice { from, len } => self.array_slice(&value, *from, *len, span)?,
                 Step::VariantField(k, field) => self.variant_field(&value, *k, field, span)?,
             };
         }

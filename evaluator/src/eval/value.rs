@@ -170,6 +170,13 @@ pub enum Step {
     Field(Name),
     /// An element of an array, a component of a vector; the index may be a runtime value.
     Index(Value),
+    /// Elements of an array, from an index on: a slice.
+    Slice {
+        /// Index of the first element.
+        from: usize,
+        /// Number of elements.
+        len: usize,
+    },
     /// A field of the variant of an enum at a position.
     VariantField(usize, Name),
 }

@@ -6,7 +6,7 @@ use super::names::Names;
 use super::parts::takes_apart;
 use super::targets::{BreakKind, BreakTarget};
 use super::token_span;
-use super::tree::{Block, Expr, ExprKind, ForLoop, Generic, Pattern, Statement, Type};
+use super::tree::{Block, Bounds, Expr, ExprKind, ForLoop, Generic, Pattern, Statement, Type};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
@@ -238,6 +238,7 @@ impl Lower {
                 let name = member_name(&e.member);
                 ExprKind::Field(self.lower_link(&e.base), name)
             }
+            syn::Expr::Index(e) if range_in_brackets(&e.index).is_some() => self.lower_slice(e),
             syn::Expr::Index(e) => ExprKind::Index(self.lower_link(&e.expr), self.boxed(&e.index)),
             syn::Expr::If(e) if has_let(&e.cond) => self.if_let(e),
             syn::Expr::If(e) => {
@@ -527,6 +528,21 @@ impl Lower {
         })
     }
 
+    /// A slice of an array, `array[a..b]`; as an index alone a range may lack an end.
+    fn lower_slice(&mut self, e: &syn::ExprIndex) -> ExprKind {
+        let base = self.lower_link(&e.expr);
+        let Some(range) = range_in_brackets(&e.index) else {
+            return ExprKind::Tuple(Vec::new());
+        };
+        let mut end = |of: &Option<Box<syn::Expr>>| of.as_ref().map(|end| self.boxed(end));
+        let bounds = Bounds {
+            start: end(&range.start),
+            end: end(&range.end),
+            inclusive: matches!(range.limits, syn::RangeLimits::Closed(_)),
+        };
+        ExprKind::Slice(base, bounds)
+    }
+
     fn lower_range(&mut self, e: &syn::ExprRange) -> ExprKind {
         match (&e.start, &e.end) {
             (Some(start), Some(end)) => {
@@ -538,6 +554,16 @@ impl Lower {
                 ExprKind::Tuple(Vec::new())
             }
         }
+    }
+}
+
+/// The range that an index is, in parentheses or not.
+fn range_in_brackets(index: &syn::Expr) -> Option<&syn::ExprRange> {
+    match index {
+        syn::Expr::Range(range) => Some(range),
+        syn::Expr::Paren(inner) => range_in_brackets(&inner.expr),
+        syn::Expr::Group(inner) => range_in_brackets(&inner.expr),
+        _ => None,
     }
 }
 

@@ -198,9 +198,11 @@ fn scan_expr<'b>(e: &'b Expr, out: &mut Effects, around: &mut Around<'b>) {
 pub fn root_variable(place: &Expr) -> Option<String> {
     match &place.kind {
         ExprKind::Path(path) if path.len() == 1 => Some(path[0].clone()),
-        ExprKind::Field(base, _) | ExprKind::Index(base, _) | ExprKind::Deref(base) | ExprKind::Ref(_, base) => {
-            root_variable(base)
-        }
+        ExprKind::Field(base, _)
+        | ExprKind::Index(base, _)
+        | ExprKind::Slice(base, _)
+        | ExprKind::Deref(base)
+        | ExprKind::Ref(_, base) => root_variable(base),
         // A method may give a reference to a part of its receiver.
         ExprKind::Method(receiver, ..) => root_variable(receiver),
         _ => None,
@@ -223,6 +225,7 @@ pub fn child_exprs(e: &Expr) -> Vec<&Expr> {
         | ExprKind::Repeat(a, b)
         | ExprKind::Range(a, b, _)
         | ExprKind::Assign(a, _, b) => vec![a, b],
+        ExprKind::Slice(base, bounds) => std::iter::once(&**base).chain(bounds.ends()).collect(),
         ExprKind::Call(_, constants, args) => constants.iter().chain(args).collect(),
         ExprKind::Tuple(args) | ExprKind::Array(args) => args.iter().collect(),
         ExprKind::Method(first, _, constants, args) => std::iter::once(&**first).chain(constants).chain(args).collect(),

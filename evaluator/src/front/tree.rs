@@ -73,6 +73,8 @@ pub enum ExprKind {
     Cast(Box<Expr>, Type),
     /// `a..b`, `a..=b` (true).
     Range(Box<Expr>, Box<Expr>, bool),
+    /// A slice of an array: `array[a..b]`.
+    Slice(Box<Expr>, Bounds),
     /// `for pattern in iterable`.
     For(Box<ForLoop>),
     /// `while`, or `loop` as `while true`, with its label and what its attribute says.
@@ -89,6 +91,24 @@ pub enum ExprKind {
     Assert(Box<Expr>, String),
     /// `|a, b| value`.
     Closure(Arc<Closure>),
+}
+
+/// Ends of a range in brackets.
+#[derive(Clone, Debug)]
+pub struct Bounds {
+    /// First index; 0 if it is missing.
+    pub start: Option<Box<Expr>>,
+    /// Last index, or the one after it; the array's length if it is missing.
+    pub end: Option<Box<Expr>>,
+    /// `true` if the range includes its end: `a..=b`.
+    pub inclusive: bool,
+}
+
+impl Bounds {
+    /// The ends that are written.
+    pub fn ends(&self) -> impl Iterator<Item = &Expr> {
+        [&self.start, &self.end].into_iter().filter_map(Option::as_deref)
+    }
 }
 
 /// A closure.

@@ -81,6 +81,13 @@ fn apply_to_expr(e: &mut Expr, known: &Known) {
             go(a);
             go(b);
         }
+        ExprKind::Slice(base, bounds) => {
+            go(base);
+            [&mut bounds.start, &mut bounds.end]
+                .into_iter()
+                .flatten()
+                .for_each(|end| go(end));
+        }
         ExprKind::Call(path, constants, args) => {
             constants.iter_mut().chain(args).for_each(go);
             if let Some(function) = known.methods.get(&e.span) {

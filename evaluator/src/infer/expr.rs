@@ -167,6 +167,7 @@ impl<'l> Checker<'l> {
             ExprKind::Path(_) | ExprKind::Field(..) | ExprKind::Index(..) | ExprKind::Deref(_) => {
                 self.infer_place(expr).0
             }
+            ExprKind::Slice(..) => self.infer_slice_value(expr),
             ExprKind::Unary(op, operand) => self.infer_unary(*op, operand, wanted, span),
             ExprKind::Ref(true, operand) => {
                 let (ty, access) = self.infer_place(operand);
@@ -178,10 +179,10 @@ impl<'l> Checker<'l> {
                     Some(Ty::Ref(_, inner)) => Some(*inner),
                     _ => None,
                 };
-                self.infer_expr(operand, inner.as_ref()).into_shared_ref()
+                self.infer_unsized(operand, inner.as_ref()).into_shared_ref()
             }
             ExprKind::Binary(op, left, right) => {
-                let (l, r) = (self.infer_expr(left, None), self.infer_expr(right, None));
+                let (l, r) = (self.infer_unsized(left, None), self.infer_unsized(right, None));
                 let found = self.infer_operator(*op, &l, &r, expr);
                 if let (Some(a), Some(b)) = (
                     super::operators::integer_literal(left),
@@ -221,7 +222,7 @@ impl<'l> Checker<'l> {
                 }
             }
             ExprKind::Match(subject, arms, _) => {
-                let subject = self.infer_expr(subject, None);
+                let subject = self.infer_unsized(subject, None);
                 let mut all = Ty::Never;
                 for arm in arms {
                     let mark = self.locals.len();

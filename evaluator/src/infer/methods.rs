@@ -6,7 +6,7 @@ use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text};
 use crate::front::methods;
-use crate::front::tree::{Expr, IntType};
+use crate::front::tree::{Expr, ExprKind, IntType};
 use crate::ir::{Scalar, Type};
 
 impl<'l> Checker<'l> {
@@ -23,7 +23,7 @@ impl<'l> Checker<'l> {
         if self.table.variable_kind(&self.peel_refs(&ty).0) == Some(Kind::Any) {
             self.solve_deferred();
         }
-        let (bare, reference) = self.peel_refs(&ty);
+        let (bare, mut reference) = self.peel_refs(&ty);
         if let Ty::Param(parameter) = &bare
             && let Some(function) = self.declared_of(parameter, name)
         {
@@ -72,6 +72,18 @@ impl<'l> Checker<'l> {
             // rustc finds `Ord` of the reference before that of the number.
             let wanted = vec![ty.clone(); if name == "clamp" { 2 } else { 1 }];
             return self.check_arguments(args, &wanted, ty.clone());
+        }
+        if matches!(receiver.kind, ExprKind::Slice(..)) {
+            if name == "map" {
+                self.errors.push(
+                    Diagnostic::error_at(Code::UnknownMethod, span, "a slice has no method `map`")
+                        .label("not there")
+                        .help("write `.iter().map(...)`"),
+                );
+                return self.unknown_method(args);
+            }
+            // rustc takes a reference to a slice for a method that takes `self`.
+            reference = Some(false);
         }
         match (&bare, name) {
             (Ty::Array(element), "iter" | "iter_mut") => {

@@ -36,6 +36,15 @@ impl<'l> Checker<'l> {
                 let found = self.infer_expr(index, None);
                 (self.infer_element(&bare, &found, index), access)
             }
+            ExprKind::Slice(base, bounds) => {
+                let (base, access) = self.infer_place(base);
+                let (bare, access) = self.peel_base(&base, access);
+                for end in bounds.ends() {
+                    let found = self.infer_expr(end, None);
+                    self.check_index(&bare, &found, end);
+                }
+                (self.slice_type(&bare, expr.span), access)
+            }
             ExprKind::Deref(reference) => {
                 let (ty, access) = self.infer_place(reference);
                 match self.table.resolve_shallow(&ty) {
@@ -225,8 +234,36 @@ impl<'l> Checker<'l> {
             _ => return Ty::Unknown,
         };
         if let Ty::Range(_) = self.table.resolve_shallow(index) {
-            return Ty::Unknown;
+            return self.slice_type(base, at.span);
         }
+        self.check_index(base, index, at);
+        element
+    }
+
+    /// The type of a part of an array. A slice is of its array's type, which states no length.
+    fn slice_type(&mut self, base: &Ty, span: Span) -> Ty {
+        match base {
+            Ty::Array(_) | Ty::Unknown => base.clone(),
+            Ty::Var(_) if self.table.variable_kind(base) == Some(Kind::Any) => Ty::Unknown,
+            other => {
+                let shown = self.table.resolve_deep(other);
+                let error = Diagnostic::error_at(
+                    Code::IndexType,
+                    span,
+                    format!("the type `{shown}` cannot be indexed by a range"),
+                )
+                .label("not an array");
+                self.errors.push(match other {
+                    Ty::Vector(..) => error.help("take its components: `.xy()`, or `.to_array()` to slice them"),
+                    _ => error.help("a range takes a part of an array: `&array[1..3]`"),
+                });
+                Ty::Unknown
+            }
+        }
+    }
+
+    /// Notes an error about an index that is no `usize`.
+    fn check_index(&mut self, base: &Ty, index: &Ty, at: &Expr) {
         if !self.table.unify(&Ty::USIZE, index) {
             let (base, found) = (self.table.resolve_deep(base), self.table.resolve_deep(index));
             let found = match self.table.variable_kind(&found) {
@@ -243,7 +280,32 @@ impl<'l> Checker<'l> {
                 .help("convert it with `as usize`"),
             );
         }
-        element
+    }
+
+    /// The type of an operand that may be a slice, as rustc takes a reference to it: in a comparison or a `match`.
+    pub fn infer_unsized(&mut self, operand: &'l Expr, wanted: Option<&Ty>) -> Ty {
+        match operand.kind {
+            ExprKind::Slice(..) => self.infer_place(operand).0,
+            _ => self.infer_expr(operand, wanted),
+        }
+    }
+
+    /// The type of a slice where a value is needed, which rustc refuses.
+    pub fn infer_slice_value(&mut self, expr: &'l Expr) -> Ty {
+        let ty = self.infer_place(expr).0;
+        let shown = self.table.resolve_deep(&ty);
+        if shown != Ty::Unknown {
+            self.errors.push(
+                Diagnostic::error_at(
+                    Code::MismatchedTypes,
+                    expr.span,
+                    "a slice is no value of its own: its size is known only when it is evaluated",
+                )
+                .label("a slice")
+                .help("take a reference to it: write `&` or `&mut` before it"),
+            );
+        }
+        Ty::Unknown
     }
 
     /// `target = value`, `target op= value`.
@@ -331,7 +393,11 @@ fn known_constant(path: &[String]) -> Ty {
         [] => return Ty::Unknown,
     };
     if let Some((kind, lanes)) = super::signature::vector(ty) {
-        return Ty::Vector(kind, lanes);
+        let one = Ty::Vector(kind, lanes);
+        return match name {
+            "AXES" => Ty::Array(Box::new(one)),
+            _ => one,
+        };
     }
     match ty {
         "Mat2" => Ty::Matrix(2),

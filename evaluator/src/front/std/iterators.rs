@@ -323,6 +323,7 @@ impl Array {
     }
 
     fn copy_from_slice<T>(items: &mut [T], from: &[T]) {
+        assert!(items.len() == from.len(), "the slices have different lengths");
         for k in 0..items.len() {
             items[k] = from[k];
         }
@@ -414,12 +415,14 @@ impl Array {
     }
 
     fn clone_from_slice<T>(items: &mut [T], from: &[T]) {
+        assert!(items.len() == from.len(), "the slices have different lengths");
         for k in 0..items.len() {
             items[k] = from[k];
         }
     }
 
     fn swap_with_slice<T>(items: &mut [T], other: &mut [T]) {
+        assert!(items.len() == other.len(), "the slices have different lengths");
         for k in 0..items.len() {
             let item = items[k];
             items[k] = other[k];

@@ -30,6 +30,8 @@ pub enum Feature {
     Generics,
     /// Arrays of structures, of tuples and of arrays.
     Nested,
+    /// Slices of arrays.
+    Slices,
     /// Labelled loops, `break`, `continue`, early `return`.
     Leaving,
     /// As `Leaving`, under conditions that are runtime values, and in loops left in the shader.
@@ -77,6 +79,7 @@ pub const ALL: &[Feature] = &[
     Feature::Matching,
     Feature::Generics,
     Feature::Nested,
+    Feature::Slices,
     Feature::Leaving,
     Feature::RuntimeLeaving,
     Feature::While,

@@ -214,7 +214,12 @@ impl Maker {
         self.attribute();
         if may_write && self.random.below(3) > 0 {
             let path = array.name.clone();
+            let (slice, count) = self.slice(len, 4);
             let (head, counter) = match self.random.below(4) {
+                _ if !slice.is_empty() => match self.random.once_in(2) {
+                    true => (format!("for {name} in &mut {path}{slice}"), None),
+                    false => (format!("for {name} in {path}{slice}.iter_mut()"), None),
+                },
                 0 if array.hold == Hold::Value => (format!("for {name} in &mut {path}"), None),
                 1 => {
                     let k = self.fresh("k");
@@ -224,7 +229,7 @@ impl Maker {
                 _ => (format!("for {name} in {path}.iter_mut()"), None),
             };
             self.freeze(&path, true);
-            self.iterate(&head, label, len as u32, |m| {
+            self.iterate(&head, label, count as u32, |m| {
                 m.bind(&name, &of, false);
                 m.last().hold = Hold::Mutable;
                 if let Some(k) = counter {
@@ -240,7 +245,10 @@ impl Maker {
         }
         let by_value = self.copies(&of) && array.hold == Hold::Value;
         let path = array.name.clone();
+        let (slice, count) = self.slice(len, 4);
         let (head, hold, counter) = match self.random.below(5) {
+            0 | 1 if !slice.is_empty() => (format!("for {name} in &{path}{slice}"), Hold::Shared, None),
+            _ if !slice.is_empty() => (format!("for {name} in {path}{slice}.iter()"), Hold::Shared, None),
             0 if by_value => (format!("for {name} in {path}"), Hold::Value, None),
             1 => {
                 let k = self.fresh("k");
@@ -255,12 +263,12 @@ impl Maker {
             _ => (format!("for {name} in {path}.iter()"), Hold::Shared, None),
         };
         // An array that is iterated by reference cannot be changed inside.
-        let blocks = head.contains(".iter()");
+        let blocks = head.contains(".iter()") || !slice.is_empty();
         let writes = array.mutable || array.hold == Hold::Mutable;
         if blocks && writes {
             self.freeze(&path, true);
         }
-        self.iterate(&head, label, len as u32, |m| {
+        self.iterate(&head, label, count as u32, |m| {
             m.bind(&name, &of, false);
             m.last().hold = hold;
             m.last().known = array.known;

@@ -104,13 +104,29 @@ impl Maker {
         }
         let array = self.random.pick(&arrays);
         let Ty::Array(of, len) = &array.ty else { return None };
-        let index = self.index(*len, want.known || !of.plain(), want.depth.min(2));
+        let (slice, len) = self.slice(*len, 5);
+        let index = self.index(len, want.known || !of.plain(), want.depth.min(2));
         let text = if array.text.starts_with('*') {
             format!("({})", array.text)
         } else {
             array.text
         };
-        Some(format!("{text}[{index}]"))
+        Some(format!("{text}{slice}[{index}]"))
+    }
+
+    /// Brackets that take a slice of an array of `len` elements, once in `n` times, and the number of its elements.
+    pub(super) fn slice(&mut self, len: usize, n: usize) -> (String, usize) {
+        if len == 0 || !self.chance(Feature::Slices, n) {
+            return (String::new(), len);
+        }
+        let from = self.random.below(len);
+        let to = from + 1 + self.random.below(len - from);
+        match self.random.below(4) {
+            0 => (format!("[{from}..]"), len - from),
+            1 => (format!("[..{to}]"), to),
+            2 => (format!("[{from}..={}]", to - 1), to - from),
+            _ => (format!("[{from}..{to}]"), to - from),
+        }
     }
 
     /// A `usize` below `len`.
@@ -173,9 +189,10 @@ impl Maker {
                 .count();
             if len > 0 {
                 self.freeze(&place.root.clone(), true);
+                let (slice, len) = self.slice(len, 4);
                 let index = self.index(len, false, 1);
                 self.freeze(&place.root.clone(), false);
-                place.text = format!("{}[{index}]", &place.text[..at]);
+                place.text = format!("{}{slice}[{index}]", &place.text[..at]);
             }
         }
         Some(place)
