@@ -205,20 +205,22 @@ impl Kernel {
         deep(|| self.typed_library().map(|library| format!("{library:?}")))
     }
 
-    /// Looks at the types of the functions that the kernel does not reach, as rustc does: what else they hold does not concern it.
+    /// Checks the functions and constants that the kernel does not reach as rustc does. They may hold what is not part of the
+    /// kernel language.
     ///
     /// # Errors
     ///
-    /// Every two types in them that do not match, and what is wrong with the kernel's text.
+    /// Every error in them that rustc reports too, and the errors of the kernel's text.
     pub fn check_others(&self) -> Result<(), Errors> {
         deep(|| {
             let Parsed {
                 library,
                 others,
+                unknown_names,
                 errors: mut found,
                 ..
-            } = front::parse(&self.source.files, &self.source.name)?;
-            found.extend(infer::find_mismatches(&library, &others));
+            } = front::parse_whole(&self.source.files, &self.source.name)?;
+            found.extend(infer::check_others(&library, &others, unknown_names));
             match found.is_empty() {
                 true => Ok(()),
                 false => Err(Errors::new(found, &self.source.files)),

@@ -217,6 +217,69 @@ fn functions_that_no_kernel_reaches_are_checked_for_their_types() {
     );
 }
 
+/// Each error of functions and constants that no kernel reaches, beside those of the kernel.
+#[test]
+fn functions_that_no_kernel_reaches_have_the_errors_of_rustc() {
+    let folder = scratch("check-all");
+    let head = "use straightline_kernels::prelude::*;\n\n";
+    let kernel = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel)\n}\n";
+    let items = "struct Tap { weight: f32 }\nenum Mode { Sharp, Soft }\n";
+    let cases = [
+        ("const WRONG: f32 = 1;", "E0301"),
+        ("fn f() -> f32 { let x = 1.0_f32; }", "E0301"),
+        ("fn f(x: f32) -> f32 { x + unknown }", "E0201"),
+        ("fn f(x: f32) -> f32 { nowhere(x) }", "E0202"),
+        ("fn f(tap: Tap) -> f32 { tap.wight }", "E0205"),
+        ("fn f(x: f32) -> f32 { x += 1.0; x }", "E0214"),
+        ("fn f(x: f32) -> f32 { x(1.0) }", "E0303"),
+        ("fn f(a: Tap, b: Tap) -> Tap { a + b }", "E0304"),
+        ("fn f(mode: Mode) -> f32 { match mode { Mode::Sharp => 1.0 } }", "E0310"),
+        ("fn f(x: f32) -> f32 { continue; x }", "E0402"),
+        ("fn f<T: Copy>(x: T) -> f32 { let y: u32 = 1.5; x; 1.0 }", "E0301"),
+    ];
+    for (mistake, code) in cases {
+        let file = write(&folder, "k.rs", &format!("{head}{items}{kernel}{mistake}\n"));
+        let (found, _) = messages(&["check", &file, "--message-format=json"]);
+        let codes: Vec<_> = found
+            .iter()
+            .map(|error| error.code.as_ref().map(|code| code.code.clone()))
+            .collect();
+        assert_eq!(codes, [Some(format!("straightline::{code}"))], "{mistake}");
+    }
+    // All of them at once, with one of the kernel.
+    let wrong = kernel.replace("color.load(pixel)", "color.lood(pixel)");
+    let both = format!("{head}{wrong}fn f() -> f32 {{\n    1\n}}\nfn g() -> f32 {{\n    x\n}}\n");
+    let file = write(&folder, "k.rs", &both);
+    assert_eq!(messages(&["check", &file, "--message-format=json"]).0.len(), 3);
+}
+
+/// Functions that rustc takes and that are not of the kernel language, or use what the file does not show.
+#[test]
+fn functions_that_no_kernel_reaches_may_be_outside_of_the_language() {
+    let folder = scratch("check-outside");
+    let kernel = "use straightline_kernels::prelude::*;\n\npub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel)\n}\n";
+    let taken = [
+        "fn main() { let frame = Frame::new(uvec2(1, 1), vec![Vec4::ONE]); println!(\"{}\", k(&frame, ivec2(0, 0))); }",
+        "#[cfg(test)] mod tests { use super::*; #[test] fn works() { assert_eq!(helper(), 1); } }",
+        "use crate::shared::helper; fn f(x: f32) -> f32 { helper(x) + crate::shared::other(x) * super::LIMIT }",
+        "use super::shared::*; fn f(x: f32) -> f32 { helper(x) + LIMIT }",
+        "#[derive(PartialEq, PartialOrd, Clone, Copy)] struct Tap { x: f32 } fn f(a: Tap, b: Tap) -> bool { a < b }",
+        "struct Tap(f32); fn f(list: [f32; 2]) -> [Tap; 2] { list.map(Tap) }",
+        "fn f(r: std::ops::Range<usize>) -> usize { r.end - r.start }",
+        "fn f() -> usize { let r = 1..3_usize; drop(r.start); r.end }",
+        "fn f(q: Quat, v: Vec3) -> Vec3 { (q * v).any_orthonormal_vector() + (q * q).normalize() * v }",
+        "fn f<T: Into<f32> + Copy>(x: T) -> f32 { x.into() * 2.0 }",
+        "macro_rules! half { ($x:expr) => { $x * 0.5 } } fn f(x: f32) -> f32 { half!(x) }",
+        "fn f(x: f32) -> f32 { x.to_radians().mul_add(2.0, x.asinh()) }",
+        "fn f(x: Vec3) -> f32 { Vec3::from_slice(&[1.0, 2.0, 3.0]).dot(x) }",
+        "use std::cmp::max; fn f(a: i32, b: i32) -> i32 { max(a, b) }",
+    ];
+    for item in taken {
+        let file = write(&folder, "k.rs", &format!("{kernel}{item}\n"));
+        finishes(&["check", &file]);
+    }
+}
+
 #[test]
 fn notes_help_and_further_places_are_kept() {
     let folder = scratch("check-parts");

@@ -22,6 +22,13 @@ pub struct Import {
 }
 
 impl Import {
+    /// The name that the import brings in, unless the kernel's files define it.
+    pub fn unknown_name(&self, library: &Library) -> Option<&str> {
+        let here = self.name.1.as_str();
+        let known = library.functions.contains_key(here) || library.consts.contains_key(here);
+        (!known).then_some(here)
+    }
+
     /// The name and why the kernel may not use it, if what it stands for is not in the kernel's files.
     pub fn missing_error(self, library: &Library) -> Option<(String, Diagnostic)> {
         let (there, here) = self.name;
@@ -165,7 +172,10 @@ impl Items {
                     }
                     // Calls of it are refused where they stand.
                     Some(_) => {}
-                    None => self.refuse_definitions(m.mac.tokens.clone(), check),
+                    None => {
+                        self.note_unknown_names(true);
+                        self.refuse_definitions(m.mac.tokens.clone(), check);
+                    }
                 }
             }
             // Another crate's name only stands before `::`.
@@ -207,7 +217,11 @@ impl Items {
                 path.pop();
             }
             syn::UseTree::Group(g) => g.items.iter().for_each(|tree| self.collect_imports(check, tree, path)),
-            syn::UseTree::Glob(_) => {}
+            syn::UseTree::Glob(_) => {
+                let known = path.first().is_some_and(|root| root == "straightline_kernels")
+                    || path.last().is_some_and(|last| last == "consts");
+                self.note_unknown_names(!known);
+            }
             syn::UseTree::Name(n) => self.import_name(check, path, (&n.ident, &n.ident)),
             syn::UseTree::Rename(r) => {
                 if r.rename != "_" {

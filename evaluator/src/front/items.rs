@@ -11,7 +11,8 @@ use super::tree::{Enum, EnumVariant, Fields, Function, Generic, Library, Param, 
 use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
-use std::collections::HashMap;
+use rustc_hash::FxHashSet;
+use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
@@ -25,6 +26,8 @@ pub struct Items {
     pub(super) mentions: Mentions,
     /// Names that files import.
     imports: Vec<Import>,
+    /// `true` if the files may use names that they do not show: by `use module::*`, or by a macro that defines items.
+    unknown_names: bool,
     pub(super) names: Rc<Names>,
     /// Traits as they are written, with their files.
     pub(super) traits: HashMap<String, (u32, syn::ItemTrait)>,
@@ -192,6 +195,11 @@ impl Items {
     /// Notes a function of an implementation of a trait.
     pub(super) fn of_trait(&mut self, name: String, errors: Vec<Diagnostic>) {
         self.of_traits.push((name, errors));
+    }
+
+    /// Notes if a `use` or a macro may define names that the files do not show.
+    pub(super) fn note_unknown_names(&mut self, unknown: bool) {
+        self.unknown_names |= unknown;
     }
 
     /// Notes a name that a file imports.
@@ -479,6 +487,15 @@ impl Items {
     ///
     /// Items that are defined twice, and types that hold themselves, with all other errors.
     pub fn lower_reached(mut self, entry: &str) -> Result<Parsed, Vec<Diagnostic>> {
+        self.lower(entry, false)
+    }
+
+    /// As [`Items::lower_reached`], with the library's functions that the other items of the files need.
+    pub fn lower_whole(mut self, entry: &str) -> Result<Parsed, Vec<Diagnostic>> {
+        self.lower(entry, true)
+    }
+
+    fn lower(&mut self, entry: &str, whole: bool) -> Result<Parsed, Vec<Diagnostic>> {
         self.implement_all();
         // A method of a type itself goes before one of a trait.
         for (name, errors) in std::mem::take(&mut self.of_traits) {
@@ -486,7 +503,9 @@ impl Items {
                 self.note_errors_of(&name, errors);
             }
         }
+        let mut doubtful_names = FxHashSet::default();
         for import in std::mem::take(&mut self.imports) {
+            doubtful_names.extend(import.unknown_name(&self.library).map(str::to_owned));
             if let Some((name, error)) = import.missing_error(&self.library) {
                 self.note_errors_of(&name, vec![error]);
             }
@@ -496,7 +515,7 @@ impl Items {
         for name in &reached {
             errors.extend(self.errors.get(name).into_iter().flatten().cloned());
         }
-        let mut contradictions = self.duplicates;
+        let mut contradictions = std::mem::take(&mut self.duplicates);
         contradictions.extend(super::recursive::check_recursive_types(&self.library));
         if !contradictions.is_empty() {
             contradictions.extend(errors);
@@ -510,19 +529,33 @@ impl Items {
         self.library.broken = broken.into_iter().cloned().collect();
         let doubtful = |name: &String| is_broken(name) || self.mentions.mentions_any(name, &types);
         let sound = reached.iter().filter(|name| !doubtful(name)).cloned().collect();
-        self.library
-            .functions
-            .retain(|name, function| function.span.file != super::std::FILE || reached.contains(name));
+        let std_file = super::std::FILE;
         let written = |name: &&String| self.errors.get(*name).is_none_or(Vec::is_empty) && !reached.contains(*name);
-        let own = self.library.functions.iter();
-        let own = own
-            .filter(|(_, function)| function.span.file != super::std::FILE)
-            .map(|(name, _)| name);
-        let others = own.filter(written).cloned().collect();
+        let functions = self.library.functions.iter();
+        let functions = functions.filter(|(_, function)| function.span.file != std_file);
+        let consts = self.library.consts.iter();
+        let consts = consts.filter(|(_, constant)| constant.value.span.file != std_file);
+        let own = functions.map(|(name, _)| name).chain(consts.map(|(name, _)| name));
+        let others: BTreeSet<String> = own.filter(written).cloned().collect();
+        let mut needed = reached.clone();
+        if whole {
+            for name in &others {
+                needed.extend(self.mentions.reached_items(self.errors.keys(), name));
+            }
+            doubtful_names.extend(self.errors.keys().filter(|name| is_broken(name)).cloned());
+        }
+        let mut library = std::mem::take(&mut self.library);
+        library
+            .functions
+            .retain(|name, function| function.span.file != std_file || needed.contains(name));
+        if whole {
+            library.broken = doubtful_names;
+        }
         Ok(Parsed {
-            library: self.library,
+            library,
             reached: sound,
             others,
+            unknown_names: self.unknown_names,
             errors,
         })
     }

@@ -84,8 +84,10 @@ pub struct Parsed {
     pub library: Library,
     /// Items that the kernel reaches: the others may hold anything.
     pub reached: BTreeSet<String>,
-    /// Functions of the files that it does not reach and that are of the kernel language.
+    /// Functions and constants of the files that it does not reach and that are of the kernel language.
     pub others: BTreeSet<String>,
+    /// `true` if the files may use names that they do not show.
+    pub unknown_names: bool,
     /// Errors in what the kernel reaches. Items that have one, or mention a type that has one, are not among `reached`.
     pub errors: Vec<Diagnostic>,
 }
@@ -97,6 +99,27 @@ pub struct Parsed {
 /// A file is not Rust, or its items contradict each other. Errors within items are [`Parsed::errors`], so that inference can
 /// find more in the others.
 pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
+    let items = read_items(files)?;
+    let lowered = items.lower_reached(&raw_name(entry));
+    let mut parsed = lowered.map_err(|found| Errors::new(found, files))?;
+    parsed.library.purposes = purposes::function_purposes(&parsed.library);
+    Ok(parsed)
+}
+
+/// Reads all files and lowers what they hold, for the types of what `entry` does not reach. In the library, names that the
+/// files import or that have errors count as broken.
+///
+/// # Errors
+///
+/// As of [`parse`].
+pub fn parse_whole(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
+    let items = read_items(files)?;
+    let lowered = items.lower_whole(&raw_name(entry));
+    lowered.map_err(|found| Errors::new(found, files))
+}
+
+/// Reads the items of all files and of the library.
+fn read_items(files: &Arc<Vec<File>>) -> Result<items::Items, Errors> {
     let mut errors = Vec::new();
     let mut syntax = Vec::new();
     for (index, file) in files.iter().enumerate() {
@@ -124,11 +147,7 @@ pub fn parse(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors> {
         Ok(mut parsed) => items.add_file(std::FILE, &mut parsed),
         Err(error) => return Err(Errors::from_diagnostic(syntax_error(std::FILE, "", &error))),
     }
-    let mut parsed = items
-        .lower_reached(&raw_name(entry))
-        .map_err(|found| Errors::new(found, files))?;
-    parsed.library.purposes = purposes::function_purposes(&parsed.library);
-    Ok(parsed)
+    Ok(items)
 }
 
 /// The text with blanks for a byte order mark and a first line `#!/...`, so that what follows stays in its place.

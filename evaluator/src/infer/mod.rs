@@ -59,16 +59,47 @@ pub fn infer_types(library: &mut Library, reached: &BTreeSet<String>) -> Result<
     Err(errors)
 }
 
-/// Types that do not match in functions that the kernel does not reach. What else is wrong with them does not concern it: they may call
-/// what is not among its files.
-pub fn find_mismatches(library: &Library, functions: &BTreeSet<String>) -> Vec<Diagnostic> {
+/// Errors that rustc reports too, wherever it meets them.
+const OF_RUST: [Code; 15] = [
+    Code::UnknownField,
+    Code::UnknownLabel,
+    Code::DefinedTwice,
+    Code::Immutable,
+    Code::MismatchedTypes,
+    Code::ArgumentCount,
+    Code::NotAFunction,
+    Code::IndexType,
+    Code::LiteralRange,
+    Code::NonExhaustive,
+    Code::RefutablePattern,
+    Code::QuestionMark,
+    Code::Leaving,
+    Code::DivisionByZero,
+    Code::Overflow,
+];
+
+/// Errors that rustc reports too, unless a name that the files do not show is meant.
+const OF_NAMES: [Code; 3] = [Code::UnknownName, Code::UnknownFunction, Code::OperatorTypes];
+
+/// Errors that rustc reports too, in functions and constants that the kernel does not reach. Other errors there do not
+/// concern it, as these items need not be of the kernel language.
+pub fn check_others(library: &Library, others: &BTreeSet<String>, unknown_names: bool) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
-    for function in functions.iter().filter_map(|name| library.functions.get(name)) {
+    for name in others {
         infer_item(library, &mut Known::default(), &mut errors, |checker| {
-            checker.check_function(function)
+            checker.unreached = true;
+            if let Some(function) = library.functions.get(name) {
+                checker.check_function(function);
+            }
+            if let Some(constant) = library.consts.get(name) {
+                checker.check_constant(constant);
+            }
         });
     }
-    errors.retain(|error| error.code() == Some(Code::MismatchedTypes));
+    errors.retain(|error| {
+        let is_in = |codes: &[Code]| error.code().is_some_and(|code| codes.contains(&code));
+        is_in(&OF_RUST) || !unknown_names && is_in(&OF_NAMES)
+    });
     errors.sort_by_key(|error| error.span);
     errors.dedup();
     errors
@@ -194,6 +225,8 @@ struct Checker<'l> {
     deferred: Vec<Deferred<'l>>,
     /// Methods that stand for functions of the library.
     methods: HashMap<Span, String>,
+    /// `true` in an item that the kernel does not reach: it may use what Rust and glam have and the language has not.
+    unreached: bool,
     errors: Vec<Diagnostic>,
 }
 
@@ -217,6 +250,7 @@ impl<'l> Checker<'l> {
             computed: Vec::new(),
             deferred: Vec::new(),
             methods: HashMap::new(),
+            unreached: false,
             errors: Vec::new(),
         }
     }

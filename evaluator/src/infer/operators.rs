@@ -217,6 +217,10 @@ impl<'l> Checker<'l> {
             Some(Kind::Float) => "a float".to_owned(),
             _ => format!("`{ty}`"),
         };
+        // The type may derive an order, or have one by an `impl`.
+        if self.unreached && op.is_comparison() && (self.is_own(&left) || self.is_own(&right)) {
+            return;
+        }
         let sign = operator_symbol(op);
         let (l, r) = (shown(&left), shown(&right));
         let (message, label) = match op.is_comparison() {

@@ -156,7 +156,9 @@ impl<'l> Checker<'l> {
         if let ([.., of, _], Ty::Unknown) = (path, &known) {
             self.no_type(of, span);
         }
-        if let ([name], Ty::Unknown) = (path, &known) {
+        if let ([name], Ty::Unknown) = (path, &known)
+            && !library.has_type(name)
+        {
             let names: Vec<&str> = self.locals.iter().map(|local| local.name.as_str()).collect();
             self.errors.push(
                 Diagnostic::error_at(Code::UnknownName, span, format!("cannot find `{name}`"))
@@ -187,6 +189,7 @@ impl<'l> Checker<'l> {
                 None => return found,
             },
             Ty::Tuple(parts) if name.parse::<usize>().is_ok_and(|k| k < parts.len()) => return found,
+            Ty::Range(_) if found != Ty::Unknown => return found,
             _ => Vec::new(),
         };
         if !fields.contains(&name) {
@@ -219,6 +222,8 @@ impl<'l> Checker<'l> {
             },
             Ty::Vector(kind, _) => Ty::scalar(*kind),
             Ty::Matrix(n) if name.ends_with("_axis") => Ty::Vector(Scalar::F32, *n),
+            // The evaluator refuses the ends of a range, which Rust has.
+            Ty::Range(end) if matches!(name, "start" | "end") => (**end).clone(),
             _ => Ty::Unknown,
         }
     }

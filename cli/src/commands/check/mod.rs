@@ -121,9 +121,22 @@ fn check_kernel(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
         errors.files = kernel.files().to_vec().into();
         errors
     };
-    compile_and_emit(args, kernel)
-        .and_then(|compiled| kernel.check_others().map(|()| compiled))
-        .map_err(placed)
+    let compiled = compile_and_emit(args, kernel);
+    let checked = match (compiled, kernel.check_others()) {
+        (compiled, Ok(())) => compiled,
+        (Ok(_), Err(others)) => Err(others),
+        (Err(errors), Err(others)) => Err(join_errors(errors, others)),
+    };
+    checked.map_err(placed)
+}
+
+/// The errors of both, each once, in the order of their places.
+fn join_errors(mut errors: Errors, others: Errors) -> Errors {
+    let new = others.diagnostics.into_iter();
+    let new: Vec<_> = new.filter(|other| !errors.diagnostics.contains(other)).collect();
+    errors.diagnostics.extend(new);
+    errors.diagnostics.sort_by_key(|error| error.span);
+    errors
 }
 
 fn compile_and_emit(args: &CheckArgs, kernel: &Kernel) -> Result<Compiled, Errors> {
