@@ -147,11 +147,16 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
         out.insert("gathered".into(), compiled.gathered.iter().map(gathered_json).collect());
     }
     let loops = compiled.loops.iter().map(|report| {
+        let reason_of = |unrolled: bool| {
+            let reason = report.reason.as_ref();
+            reason.filter(|_| unrolled == (report.unroll == Unroll::Full))
+        };
         json!({
             "loop": report.policy_path(),
             "line": report.span.line,
             "unroll": report.unroll.to_string(),
-            "unrolled_because": report.reason,
+            "unrolled_because": reason_of(true),
+            "left_because": reason_of(false),
             "copies": report.copies,
             "operations": report.operations,
         })

@@ -162,7 +162,7 @@ impl Evaluator<'_> {
 }
 
 /// The first line of an expression's text, without the brace that opens a block.
-fn source_excerpt(text: &str) -> String {
+pub fn source_excerpt(text: &str) -> String {
     let line = text.lines().next().unwrap_or_default();
     shorten(line.trim_end().trim_end_matches('{').trim_end())
 }

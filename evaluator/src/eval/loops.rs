@@ -1,10 +1,11 @@
 //! `for`, and the rules common to all loops: a loop is left in the shader if that is requested and possible.
 
 use super::Evaluator;
+use super::causes::range_ends;
 use super::demand::UnrollReason;
 use super::departures::Tail;
 use super::partial::LoopCount;
-use super::value::{Eval, Exit, Place, Step, Value};
+use super::value::{Eval, Exit, Place, Range, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, ForLoop, Pattern};
 use crate::ir::Counter;
@@ -97,6 +98,9 @@ impl Evaluator<'_> {
                     let course = self.plan_loop(&items, f.over.span)?;
                     let bounds = course.bounds();
                     let outcome = self.keep_loop(&body, &LoopCount::Range(course), asked.unroll, span);
+                    if asked.unroll == Unroll::Full {
+                        self.record_runtime_end(f, &items, span);
+                    }
                     return self.demand_on_error(&bounds, outcome);
                 }
             },
@@ -141,6 +145,17 @@ impl Evaluator<'_> {
         };
         self.unroll_loop(&body, values, span)?;
         refused.map_or(Ok(Unroll::Full), |error| Err(error.into()))
+    }
+
+    /// Records the end of a range that leaves its loop in the shader.
+    fn record_runtime_end(&mut self, f: &ForLoop, range: &Range, span: Span) {
+        let is_end = self.known_int(&range.end).is_none();
+        let value = if is_end { &range.end } else { &range.start };
+        let place = range_ends(&f.over).map(|(start, end)| if is_end { end.span } else { start.span });
+        let mut nodes = Vec::new();
+        value.flatten(&mut nodes);
+        let reason = self.runtime_end_reason(Some(place.unwrap_or(f.over.span)), &nodes);
+        self.loops.record_reason(span, reason);
     }
 
     /// Leaves a loop in the shader if that is requested and possible.

@@ -11,6 +11,7 @@ mod blocks;
 mod budget;
 mod buffers;
 mod call;
+mod causes;
 mod closures;
 mod consts;
 mod control;

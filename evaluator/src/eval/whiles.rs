@@ -1,6 +1,7 @@
 //! `while` and `loop`.
 
 use super::Evaluator;
+use super::causes::exit_condition;
 use super::departures::Tail;
 use super::loops::{LoopBody, LoopOutcome, LoopRequest};
 use super::partial::LoopCount;
@@ -20,8 +21,13 @@ type CountedWhile = (Option<u64>, Vec<(usize, Value)>);
 enum WhileEnd {
     /// To its end, or to an unconditional exit.
     Ended(Eval),
-    /// Not at all: its end is a runtime value that depends on these loops left in the shader.
-    Open(BTreeSet<Span>),
+    /// Not at all: its end is a runtime value.
+    Open {
+        /// Loops left in the shader that the end depends on.
+        loops: BTreeSet<Span>,
+        /// The value, its place and the inputs that it depends on.
+        reason: String,
+    },
 }
 
 impl Evaluator<'_> {
@@ -101,22 +107,21 @@ impl Evaluator<'_> {
             };
         }
         let before = self.take_checkpoint();
-        let loops = match self.unroll_while(condition, &body, &mut 0, span)? {
+        let (loops, reason) = match self.unroll_while(condition, &body, &mut 0, span)? {
             WhileEnd::Ended(outcome) => {
                 return match refused {
                     Some(error) => Err(error.into()),
                     None => Ok((Unroll::Full, outcome.map(|_| Value::unit()))),
                 };
             }
-            WhileEnd::Open(loops) => loops,
+            WhileEnd::Open { loops, reason } => (loops, reason),
         };
         self.return_to(before);
-        let reason = "its end is a runtime value";
         if asked.by_name && asked.unroll == Unroll::Full {
             let error = Diagnostic::error_at(
                 Code::CannotUnroll,
                 condition.span,
-                format!("this loop cannot be unrolled: {reason}"),
+                "this loop cannot be unrolled: its end is a runtime value",
             )
             .label("its trip count is a runtime value")
             .help("leave out that it is to be unrolled, or bound it: `#[cfg_attr(false, bound(64))]`");
@@ -128,7 +133,7 @@ impl Evaluator<'_> {
                 Exit::Error(error) => self.demand_unrolling(loops, *error),
                 other => other,
             })?;
-        self.loops.record_reason(span, reason.to_owned());
+        self.loops.record_reason(span, reason);
         Ok((Unroll::None, self.finish_loop(condition, block, label)))
     }
 
@@ -215,7 +220,7 @@ impl Evaluator<'_> {
             match self.known_bool(id) {
                 Some(true) => {}
                 Some(false) => break,
-                None => return Ok(self.open_end(&[id])),
+                None => return Ok(self.open_end(Some(condition.span), &[id])),
             }
             if self.early_exits.len() > since {
                 // If no constant changed, the next iteration decides as the last one did, and so do all later ones.
@@ -225,7 +230,8 @@ impl Evaluator<'_> {
                         self.loops.record_open_end(span);
                     }
                     let conditions: Vec<NodeId> = self.early_exits[since..].iter().map(|d| d.condition).collect();
-                    return Ok(self.open_end(&conditions));
+                    let exit = exit_condition(body.block, &self.library.mutating);
+                    return Ok(self.open_end(exit.map(|exit| exit.span), &conditions));
                 }
                 before = Some(self.scope.clone());
             }
@@ -249,8 +255,11 @@ impl Evaluator<'_> {
     }
 
     /// End of a `while` that depends on runtime conditions.
-    fn open_end(&self, conditions: &[NodeId]) -> WhileEnd {
-        WhileEnd::Open(self.structured_loops.loops_feeding(self.builder.graph(), conditions))
+    fn open_end(&self, place: Option<Span>, conditions: &[NodeId]) -> WhileEnd {
+        WhileEnd::Open {
+            loops: self.structured_loops.loops_feeding(self.builder.graph(), conditions),
+            reason: self.runtime_end_reason(place, conditions),
+        }
     }
 }
 

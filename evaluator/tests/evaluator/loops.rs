@@ -173,6 +173,45 @@ fn reports_name_the_value_its_place_and_the_need() {
     assert_eq!(reason, Some(expected.as_str()));
 }
 
+/// Statements of kernels with a loop whose end is a runtime value, with the reason for which it stays.
+const RUNTIME_ENDS: &[(&str, &str)] = &[
+    (
+        "for i in 0..n * 2 { m += i; }",
+        "`n * 2` at k.rs:LINE is a runtime value, as it depends on the uniform `n`",
+    ),
+    (
+        "for i in (n..4).rev().step_by(2) { m += i; }",
+        "`n` at k.rs:LINE is a runtime value, as it depends on the uniform `n`",
+    ),
+    (
+        "let list = [1, 2, 3]; for x in list { for i in 0..=(x + pixel.x).min(n) { m += i; } }",
+        "`(x + pixel.x).min(n)` at k.rs:LINE is a runtime value, as it depends on the pixel's position and the uniform `n`",
+    ),
+    (
+        "while s < 1.0 { s = s * 1.5 + 0.1; m += 1; }",
+        "`s < 1.0` at k.rs:LINE is a runtime value, as it depends on texels of `color`",
+    ),
+    (
+        "loop { m += 1; if m > color.size().x { break; } }",
+        "`m > color.size().x` at k.rs:LINE is a runtime value, as it depends on the size of the frame",
+    ),
+];
+
+#[test]
+fn reports_name_the_value_that_ends_a_loop_at_run_time() {
+    for (body, expected) in RUNTIME_ENDS {
+        let text = kernel("", body);
+        let found = evaluated(&text, Unroll::Full).0.unwrap_or_else(|e| panic!("{e}"));
+        let line = text.lines().position(|line| line.contains(body)).unwrap_or(0) + 1;
+        let reasons: Vec<&str> = found
+            .loops
+            .iter()
+            .filter_map(|report| report.reason.as_deref())
+            .collect();
+        assert_eq!(reasons, [expected.replace("LINE", &line.to_string())], "{body}");
+    }
+}
+
 #[test]
 fn errors_between_a_loop_and_the_need_are_told_once() {
     let text = kernel(
