@@ -1,8 +1,8 @@
 //! The kernel's own parameters and result.
 
 use super::Evaluator;
+use super::enums::{EnumValue, Tag};
 use super::options::unknown_settings;
-// Booleans cannot be stored in buffers.
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Param, Type as SourceType};
@@ -10,6 +10,7 @@ use crate::front::unraw;
 use crate::ir::vector_named as vector_type;
 use crate::ir::{BinaryOp, Invocation, NodeId, Op, Scalar, Type, UniformPart};
 use std::collections::BTreeMap;
+use std::rc::Rc;
 use straightline_kernels::{OptionText, OptionValues};
 
 impl Evaluator<'_> {
@@ -236,6 +237,7 @@ impl Evaluator<'_> {
             "f32" => Type::F32,
             "i32" => Type::I32,
             "u32" => Type::U32,
+            // Booleans cannot be stored in buffers.
             "bool" => {
                 let set = self.add_uniform(&self.input_name(name), Type::U32, None);
                 let zero = Value::Node(self.builder.constant(Type::U32, [0; 4]));
@@ -261,11 +263,44 @@ impl Evaluator<'_> {
                     }
                     return Ok(Some(super::matrix::matrix_value(&columns)));
                 }
-                (None, None) => return Ok(None),
+                (None, None) => return self.enum_parameter(name, other, span),
             },
         };
         let name = &*self.input_name(name);
         Ok(Some(self.add_uniform(name, ty, None)))
+    }
+
+    /// Adds a parameter that is an enum whose variants hold no values: a `u32`, the position of the variant. A greater
+    /// number is the last variant. Returns `None` if the type is no enum.
+    fn enum_parameter(&mut self, name: &str, of: &str, span: Span) -> Eval<Option<Value>> {
+        let library = self.library;
+        let Some(definition) = library.enums.get(of) else {
+            return Ok(None);
+        };
+        let count = definition.variants.len();
+        if count == 0 || definition.variants.iter().any(|variant| !variant.fields.is_empty()) {
+            return Err(enum_with_values(name, of, span));
+        }
+        let set = self.add_uniform(&self.input_name(name), Type::U32, None);
+        let tag = match count {
+            1 => Tag::Known(0),
+            2 => {
+                let zero = Value::Node(self.builder.constant(Type::U32, [0; 4]));
+                let is_second = self.eval_binary(BinaryOp::Ne, &set, &zero, span)?;
+                Tag::Node(self.value_node(&is_second, span)?)
+            }
+            _ => {
+                let last = Value::Node(self.builder.constant(Type::U32, [count as u32 - 1, 0, 0, 0]));
+                let variant = self.eval_binary(BinaryOp::Min, &set, &last, span)?;
+                let variant = self.value_node(&variant, span)?;
+                Tag::Node(self.convert_node(variant, Scalar::I32))
+            }
+        };
+        Ok(Some(Value::Enum(Rc::new(EnumValue {
+            ty: of.into(),
+            tag,
+            variants: vec![Some(Vec::new()); count],
+        }))))
     }
 }
 
@@ -280,12 +315,22 @@ fn by_reference(name: &str, span: Span) -> Exit {
     .into()
 }
 
+fn enum_with_values(name: &str, of: &str, span: Span) -> Exit {
+    let message = format!("a kernel cannot take `{name}`: not every `{of}` is a variant without values");
+    Diagnostic::error_at(Code::KernelParameter, span, message)
+        .label("not supported")
+        .help(format!(
+            "take an enum of the variants alone, and their values as parameters of their own: `{name}: u32, {name}_value: f32`"
+        ))
+        .into()
+}
+
 fn bad_parameter(name: &str, span: Span) -> Exit {
     Diagnostic::error_at(Code::KernelParameter, span, format!("a kernel cannot take `{name}` of this type"))
         .label("not supported")
         .help(
             "a kernel takes options (`options!`), textures, samplers and buffers of the prelude, numbers, vectors and matrices, \
-             structures and arrays of these, `pixel: IVec2` and `resolution: UVec2`; of many values take a `&Buffer<T>`",
+             enums without values, structures and arrays of these, `pixel: IVec2` and `resolution: UVec2`; of many values take a `&Buffer<T>`",
         )
         .into()
 }

@@ -13,4 +13,5 @@ mod names;
 mod operations;
 mod random;
 mod ranges;
+mod uniforms;
 mod values;
