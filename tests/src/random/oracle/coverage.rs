@@ -54,11 +54,22 @@ const NOT_OF_KERNELS: &[&str] = &[
     "workgroupBarrier",
 ];
 
+/// Constructs that neither the tree nor the page names, by a text that each has.
+const CONSTRUCTS: &[(&str, &str)] = &[
+    ("a structure in an array", ": [S"),
+    ("a constant parameter", "<const N: usize>"),
+    ("a slice without an end", "..]"),
+    ("a slice without a start", "[.."),
+    ("a slice that is iterated", "].iter_mut()"),
+];
+
 /// Constructs that are missing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Missing {
     /// Variants of the front end's tree, `Enum::Variant`.
     pub variants: BTreeSet<String>,
+    /// Other constructs.
+    pub constructs: BTreeSet<String>,
     /// Names in the language's page.
     pub names: BTreeSet<String>,
 }
@@ -74,6 +85,7 @@ pub fn missing(seeds: std::ops::Range<u64>) -> Result<Missing, String> {
     let variants = variants(&read("evaluator/src/front/tree.rs")?);
     let names = names(&read("docs/kernel-language.md")?);
     let mut missing = Missing {
+        constructs: CONSTRUCTS.iter().map(|(name, _)| (*name).to_owned()).collect(),
         variants: variants.iter().map(|(of, name)| format!("{of}::{name}")).collect(),
         names: names
             .into_iter()
@@ -83,6 +95,11 @@ pub fn missing(seeds: std::ops::Range<u64>) -> Result<Missing, String> {
     for seed in seeds {
         let text = make(seed, Features::all());
         missing.names.retain(|name| !calls(&text.source, name));
+        for (name, construct) in CONSTRUCTS {
+            if text.source.contains(construct) {
+                missing.constructs.remove(*name);
+            }
+        }
         if missing.variants.is_empty() {
             continue;
         }
