@@ -135,3 +135,20 @@ pub fn slices_by_ranges(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let sum: f32 = here[inner].iter().sum();
     vec4(sum, here[last][(pixel.x & 1) as usize], 0.0, 1.0)
 }
+
+//// Parts of slices: `split_at`, `split_first`, `split_last`
+fn weighed(list: &[f32]) -> f32 {
+    match list.split_first() {
+        Some((first, rest)) => first + 0.5 * weighed(rest),
+        None => 0.0,
+    }
+}
+
+pub fn parts_of_slices(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel).to_array();
+    let (head, tail) = here.split_at(1);
+    let outer = here.as_slice().split_last().map_or(0.0, |(last, rest)| last - rest.iter().sum::<f32>());
+    let known = here.split_at_checked(3).is_some() && here.split_at_checked(5).is_none();
+    let (low, high) = tail.split_at(tail.len() / 2);
+    vec4(head[0] + tail[(pixel.x & 1) as usize], weighed(&here), outer, low[0] * high[1] + known as u32 as f32)
+}

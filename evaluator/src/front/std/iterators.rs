@@ -345,6 +345,26 @@ impl Array {
         if k < items.len() { Some(&items[k]) } else { None }
     }
 
+    fn split_at<T>(items: &[T], k: usize) -> (&[T], &[T]) {
+        (&items[..k], &items[k..])
+    }
+
+    fn split_at_checked<T>(items: &[T], k: usize) -> Option<(&[T], &[T])> {
+        if k <= items.len() { Some((&items[..k], &items[k..])) } else { None }
+    }
+
+    fn split_first<T>(items: &[T]) -> Option<(&T, &[T])> {
+        if items.len() > 0 { Some((&items[0], &items[1..])) } else { None }
+    }
+
+    fn split_last<T>(items: &[T]) -> Option<(&T, &[T])> {
+        if items.len() > 0 { Some((&items[items.len() - 1], &items[..items.len() - 1])) } else { None }
+    }
+
+    fn as_slice<T>(items: &[T]) -> &[T] {
+        &items[..]
+    }
+
     fn contains<T>(items: &[T], x: &T) -> bool {
         for item in items {
             if *item == *x {
