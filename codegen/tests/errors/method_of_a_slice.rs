@@ -1,5 +1,5 @@
 fn head(values: &[f32]) -> f32 {
-    values.split_first().0
+    values.rchunks(2)[0]
 }
 
 pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
