@@ -79,20 +79,14 @@ impl Evaluator<'_> {
                     Some(place) => {
                         let index = self.eval_expr(index)?;
                         let whole = self.read_place(&place, span)?;
-                        if let Some((from, len)) = self.range_of_index(&whole, &index, span)? {
-                            return self.array_slice(&whole, from, len, span);
-                        }
-                        match self.index_of_trait(&whole, None, &index, span)? {
+                        match self.other_index(&whole, &index, span)? {
                             Some(value) => Ok(value),
                             None => self.read_place(&place.with_step(Step::Index(index)), span),
                         }
                     }
                     None => {
                         let (base, index) = (self.eval_value(base)?, self.eval_value(index)?);
-                        if let Some((from, len)) = self.range_of_index(&base, &index, span)? {
-                            return self.array_slice(&base, from, len, span);
-                        }
-                        match self.index_of_trait(&base, None, &index, span)? {
+                        match self.other_index(&base, &index, span)? {
                             Some(value) => Ok(value),
                             None => self.array_element(&base, &index, span),
                         }

@@ -49,6 +49,14 @@ impl Evaluator<'_> {
         })
     }
 
+    /// Evaluates an index that is not of one element: a range, or what an `Index` of the kernel's own takes.
+    pub fn other_index(&mut self, base: &Value, index: &Value, span: Span) -> Eval<Option<Value>> {
+        match self.range_of_index(base, index, span)? {
+            Some((from, len)) => self.array_slice(base, from, len, span).map(Some),
+            None => self.index_of_trait(base, None, index, span),
+        }
+    }
+
     /// Returns the first element and the length of a slice of an array whose index is a range, such as a variable.
     pub fn range_of_index(&mut self, array: &Value, index: &Value, span: Span) -> Eval<Option<(usize, usize)>> {
         let Value::Range(range) = index else {

@@ -238,8 +238,13 @@ impl Lower {
                 let name = member_name(&e.member);
                 ExprKind::Field(self.lower_link(&e.base), name)
             }
-            syn::Expr::Index(e) if range_in_brackets(&e.index).is_some() => self.lower_slice(e),
-            syn::Expr::Index(e) => ExprKind::Index(self.lower_link(&e.expr), self.boxed(&e.index)),
+            syn::Expr::Index(e) => {
+                let base = self.lower_link(&e.expr);
+                match range_in_brackets(&e.index) {
+                    Some(range) => ExprKind::Slice(base, self.lower_bounds(range)),
+                    None => ExprKind::Index(base, self.boxed(&e.index)),
+                }
+            }
             syn::Expr::If(e) if has_let(&e.cond) => self.if_let(e),
             syn::Expr::If(e) => {
                 let condition = self.boxed(&e.cond);
@@ -528,19 +533,14 @@ impl Lower {
         })
     }
 
-    /// A slice of an array, `array[a..b]`; as an index alone a range may lack an end.
-    fn lower_slice(&mut self, e: &syn::ExprIndex) -> ExprKind {
-        let base = self.lower_link(&e.expr);
-        let Some(range) = range_in_brackets(&e.index) else {
-            return ExprKind::Tuple(Vec::new());
-        };
+    /// The ends of a slice; as an index alone a range may lack an end.
+    fn lower_bounds(&mut self, range: &syn::ExprRange) -> Bounds {
         let mut end = |of: &Option<Box<syn::Expr>>| of.as_ref().map(|end| self.boxed(end));
-        let bounds = Bounds {
+        Bounds {
             start: end(&range.start),
             end: end(&range.end),
             inclusive: matches!(range.limits, syn::RangeLimits::Closed(_)),
-        };
-        ExprKind::Slice(base, bounds)
+        }
     }
 
     fn lower_range(&mut self, e: &syn::ExprRange) -> ExprKind {

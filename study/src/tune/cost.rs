@@ -57,14 +57,10 @@ impl FromStr for Cost {
     fn from_str(text: &str) -> Result<Cost, String> {
         match text.split_once(':') {
             None if text == "time" => Ok(Cost::Time),
-            Some(("isa", family)) => match family.parse()? {
-                Family::Device => Err(
-                    "this machine's own driver states no cycles: use `time`, or a family such as \
-                                       isa:navi21"
-                        .to_owned(),
-                ),
-                family => Ok(Cost::Isa(family)),
-            },
+            Some(("isa", "device")) => {
+                Err("this machine's own driver states no cycles: use `time`, or a family such as isa:navi21".to_owned())
+            }
+            Some(("isa", family)) => Ok(Cost::Isa(family.parse()?)),
             _ => Err("use `time`, or `isa:FAMILY` such as isa:navi21".to_owned()),
         }
     }
