@@ -180,8 +180,8 @@ impl Settings {
 
 impl EmitOptions {
     /// A square of as many pixels as WebGPU's default limits allow: neighbours read the same texels, which then lie in
-    /// the cache. On an H100, SRAA takes 1.3 to 1.4 times as long in rows of 256x1, and no shader of the loop study
-    /// gains more than 3 % by them (docs/study.md).
+    /// the cache. On an H100, SRAA takes 1.3 to 1.4 times as long in rows of 256x1, and no form that was measured both
+    /// ways gains more than 3 % by them (docs/study-gpu.md).
     pub const WORKGROUP: [u32; 2] = [16, 16];
 
     /// Invocations of a compute workgroup in three dimensions.
