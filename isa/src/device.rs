@@ -16,7 +16,7 @@ pub struct Device {
     pub properties: khr::pipeline_executable_properties::Device,
     /// The GPU's name and the driver's version.
     pub name: String,
-    /// Whether the driver is Mesa's for AMD GPUs, whose figures have fields of their own.
+    /// `true` of Mesa's driver for AMD GPUs, whose figures have fields of their own.
     pub is_radv: bool,
     // Unloads the driver's library when it goes, so it goes last.
     _entry: Entry,

@@ -38,7 +38,7 @@ pub struct Manifest {
     /// Invocations in a workgroup; compute only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub workgroup_size: Option<[u32; 3]>,
-    /// Whether every element of workgroup memory is written before it is read, so that it need not be 0 at first.
+    /// `true` if every element of workgroup memory is written before it is read, so that it need not be 0 at first.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub fills_memory: bool,
     /// Width and height of the block of pixels that one invocation computes. Compute dispatches one invocation for each

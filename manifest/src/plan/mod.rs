@@ -155,7 +155,7 @@ pub enum StagePlan {
     Compute {
         /// Invocations across, down and in depth, which is 1.
         workgroup: [u32; 3],
-        /// Whether every element of workgroup memory is written before it is read, so that it need not be 0 at first.
+        /// `true` if every element of workgroup memory is written before it is read, so that it need not be 0 at first.
         fills_memory: bool,
     },
     /// Fragment.

@@ -25,7 +25,7 @@ pub struct Step {
     pub writes: String,
     /// Duration in seconds on two cores, roughly.
     pub seconds: u32,
-    /// The same for the quick form.
+    /// Duration in seconds of the quick form.
     pub quick_seconds: u32,
 }
 

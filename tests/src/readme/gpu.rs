@@ -1,4 +1,4 @@
-//! What was measured on a GPU: forms and workgroups by time, and what its own compiler reports.
+//! Tables of a GPU: forms and workgroups by time, and figures of its own compiler.
 
 use super::in_ms;
 use straightline_isa::Figures;
