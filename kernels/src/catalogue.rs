@@ -120,6 +120,14 @@ pub const CATALOGUE: &[Entry] = &[
         presets: SRAA_PRESETS,
     },
     Entry {
+        name: "sraa_fit_rows",
+        summary: "Sums over rows of tiles, so that sraa_fit reads fewer",
+        sources: SRAA,
+        paper: no_paper,
+        half: half::unstudied,
+        presets: SRAA_PRESETS,
+    },
+    Entry {
         name: "sraa_fit",
         summary: "Scale at which the guide of sraa is nearest to the colours",
         sources: SRAA,

@@ -23,7 +23,7 @@ const FAINT: f32 = 1.0e-4;
 /// Largest scale.
 const MOST: f32 = 4.0;
 
-/// Sums over a tile for [`sraa_fit`], for each channel; alpha is 0.
+/// Sums over a tile or a row of tiles for [`sraa_fit`], for each channel; alpha is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitSums {
     /// Σ w Δc Δg.
@@ -99,8 +99,23 @@ fn shaded_pixel(
     }
 }
 
-/// Scale of each channel of the guide, from the sums of all tiles: the image `guide_scale`, of which only the upper left pixel
-/// is read. Dispatch this kernel for that pixel only. Alpha is 0.
+/// Sums over a row of tiles, so that [`sraa_fit`], which is one thread's work, reads fewer. `pixel` is in the first column.
+/// Dispatch this kernel for one pixel a row of tiles.
+pub fn sraa_fit_rows(cfg: &Sraa, both: &Texture<Vec4>, own: &Texture<Vec4>, pixel: IVec2) -> FitSums {
+    cfg.check();
+    let mut row = FitSums {
+        both: Vec4::ZERO,
+        own: Vec4::ZERO,
+    };
+    for x in 0..both.size().x as i32 {
+        row.both += both.load(ivec2(x, pixel.y));
+        row.own += own.load(ivec2(x, pixel.y));
+    }
+    row
+}
+
+/// Scale of each channel of the guide, from the sums of all tiles or rows of tiles: the image `guide_scale`, of which only the
+/// upper left pixel is read. Dispatch this kernel for that pixel only. Alpha is 0.
 pub fn sraa_fit(cfg: &Sraa, both: &Texture<Vec4>, own: &Texture<Vec4>, pixel: IVec2) -> Vec4 {
     cfg.check();
     let size = both.size().as_ivec2();

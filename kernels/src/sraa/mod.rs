@@ -36,7 +36,7 @@ use search::{Searched, Sum, searched};
 pub use colors::Colors;
 pub use demodulate::Demodulate;
 pub use extra::sraa_extra;
-pub use fit::{FitSums, sraa_fit, sraa_fit_sums};
+pub use fit::{FitSums, sraa_fit, sraa_fit_rows, sraa_fit_sums};
 pub use gbuffer::{Depth, GBuffer, Layout, Normals, Surface};
 pub use guide::{Estimate, Guide, Guiding, sraa_guide, sraa_residual};
 pub use history::History;

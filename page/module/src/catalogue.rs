@@ -289,7 +289,14 @@ mod tests {
     use super::*;
 
     /// The page has no buffers to fill a list in, and its scene no guide.
-    const UNSHOWN: [&str; 5] = ["sraa_extra", "sraa_guide", "sraa_residual", "sraa_fit_sums", "sraa_fit"];
+    const UNSHOWN: [&str; 6] = [
+        "sraa_extra",
+        "sraa_guide",
+        "sraa_residual",
+        "sraa_fit_sums",
+        "sraa_fit_rows",
+        "sraa_fit",
+    ];
 
     #[test]
     fn every_built_in_kernel_is_there_and_every_example_says_what_it_is() {

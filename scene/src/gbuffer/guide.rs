@@ -180,8 +180,9 @@ fn fitted(cfg: &Sraa, capture: &Capture, guide: &FrameLayers<Vec4>) -> Result<Ve
         colors.place = place.clone();
     }
     let (gbuffer, tiles) = (GBuffer::unread(), capture.size.map(|axis| axis.div_ceil(16)).as_ivec2());
-    let places = (0..tiles.y).flat_map(|y| (0..tiles.x).map(move |x| ivec2(x, y)));
+    let places = (0..tiles.x * tiles.y).into_par_iter();
     let sums: Vec<FitSums> = places
+        .map(|tile| ivec2(tile % tiles.x, tile / tiles.x))
         .map(|tile| sraa_fit_sums(&cfg, &gbuffer, &UNSEEN, &colors, &guiding, tile))
         .collect();
     let texture = |of: fn(&FitSums) -> Vec4| Texture::new(tiles.as_uvec2(), sums.iter().map(of).collect());
