@@ -6,7 +6,7 @@ use crate::gpu::Gpu;
 use crate::scene;
 use straightline_scene::capture::ShadingSample;
 use straightline_scene::gbuffer;
-use straightline_scene::render::{self, PlacedBy};
+use straightline_scene::render::{self, GuideLight, PlacedBy};
 
 /// Renders and writes a capture, or nothing.
 pub fn render_capture(args: &CaptureArgs) -> Result<(), Failure> {
@@ -28,7 +28,7 @@ pub fn render_capture(args: &CaptureArgs) -> Result<(), Failure> {
         render::add_albedo(&mut capture, renderer.as_ref()).map_err(Failure::from_error)?;
     }
     if args.guide {
-        render::add_guide(&mut capture, renderer.as_ref()).map_err(Failure::from_error)?;
+        render::add_guide(&mut capture, renderer.as_ref(), GuideLight::default()).map_err(Failure::from_error)?;
     }
     if let Some(samples) = &args.reference {
         let side = if samples == "256" { 16 } else { 4 };

@@ -143,6 +143,13 @@ fn with_capture(kernel: &Kernel, options: &SettingsArgs, capture: &Capture) -> R
             settings.options.push((name, text));
         }
     }
+    let height = capture.camera.and_then(|camera| camera.parallel_height);
+    if let Some(height) = height
+        && !settings.options.iter().any(|(name, _)| name == "difference")
+    {
+        let values = kernel.option_values(&settings.options)?;
+        settings.options = gbuffer::in_parallel(&settings.options, &values, height);
+    }
     if let Some((name, _)) = asked.iter().find(|(_, value)| **value == OptionValue::Uniform) {
         return Err(Failure::Usage(format!(
             "`{name}=uniform` leaves the value to a host; here give a number"

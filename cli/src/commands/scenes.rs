@@ -3,11 +3,11 @@
 use crate::args::ScenesArgs;
 use crate::failure::Failure;
 use serde_json::json;
-use straightline_scene::scene::{NAMES, OF_SHADING};
+use straightline_scene::scene::{FURTHER, NAMES};
 
 /// Prints every scene's name and purpose.
 pub fn print_scenes(args: &ScenesArgs) -> Result<(), Failure> {
-    let all = NAMES.into_iter().chain(OF_SHADING);
+    let all = NAMES.into_iter().chain(FURTHER);
     if args.json {
         let scenes: Vec<_> = all
             .map(|(name, purpose)| json!({ "name": name, "purpose": purpose }))

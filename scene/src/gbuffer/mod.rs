@@ -17,7 +17,7 @@ pub use coarse::{Coarse, detect_coarse_depth};
 pub(crate) use guide::difference_at;
 pub use offsets::{Misplaced, find_misplaced};
 pub(crate) use pattern::pattern_of;
-pub use pattern::{PATTERNS, pattern_offsets, sampled_at};
+pub use pattern::{PATTERNS, in_parallel, pattern_offsets, sampled_at};
 pub use space::{bent_normals, has_planes};
 
 /// Why a capture cannot feed a shader.

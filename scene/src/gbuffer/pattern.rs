@@ -3,6 +3,7 @@
 use crate::capture::{Capture, ShadingSample};
 use glam::Vec2;
 use straightline_kernels::sraa::{Pattern, Sraa};
+use straightline_kernels::{OptionText, OptionValues};
 
 /// Names of the patterns that have one.
 pub const PATTERNS: [&str; 6] = ["ordered4", "latin4", "standard8", "ordered16", "latin16", "standard16"];
@@ -85,6 +86,22 @@ pub fn sampled_at(capture: &Capture) -> Vec<(String, String)> {
         .into_iter()
         .map(|(name, value)| (name.to_owned(), value))
         .collect()
+}
+
+/// Returns options for a camera with parallel rays that sees `height` scene units from the upper to the lower edge of the picture. There is
+/// no distance from an eye, so what is measured relative to depth is measured relative to that height instead. `values` are those
+/// of all options, of a preset too.
+pub fn in_parallel(options: &[OptionText], values: &OptionValues, height: f32) -> Vec<OptionText> {
+    let mut changed = vec![("projection".to_owned(), "parallel".to_owned())];
+    if values.choice("difference") == Some("relative") {
+        let scale = values.number("depth-scale").unwrap_or(1.0) / f64::from(height);
+        changed.push(("difference".to_owned(), "absolute".to_owned()));
+        changed.push(("depth-scale".to_owned(), scale.to_string()));
+    }
+    let kept = options
+        .iter()
+        .filter(|(name, _)| changed.iter().all(|(other, _)| other != name));
+    kept.cloned().chain(changed.iter().cloned()).collect()
 }
 
 #[cfg(test)]

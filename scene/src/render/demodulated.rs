@@ -3,6 +3,7 @@
 use super::{RenderError, Renderer, Surface, placed};
 use crate::capture::{Capture, ShadingSample};
 use glam::{UVec2, Vec2, Vec4, uvec2};
+use rayon::prelude::*;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 /// Gives a capture of what `renderer` draws the albedo of every layer of its geometry, with the sun's share in alpha, and,
@@ -44,12 +45,12 @@ fn once_a_pixel(
 pub(super) fn map_surfaces<R: Renderer + ?Sized>(
     renderer: &R,
     offset: Vec2,
-    of: impl Fn(&Surface, Vec2) -> Vec4,
+    of: impl Fn(&Surface, Vec2) -> Vec4 + Sync,
 ) -> Result<Frame<Vec4>, RenderError> {
     let (size, surfaces): (UVec2, _) = (renderer.size(), renderer.draw_surfaces(offset)?);
     let texel = |(k, surface): (usize, &Surface)| {
         let pixel = uvec2(k as u32 % size.x, k as u32 / size.x);
         of(surface, pixel.as_vec2() + 0.5 + offset)
     };
-    Ok(Frame::new(size, surfaces.iter().enumerate().map(texel).collect()))
+    Ok(Frame::new(size, surfaces.par_iter().enumerate().map(texel).collect()))
 }

@@ -13,7 +13,9 @@ mod extra;
 mod frame;
 mod gpu;
 mod guide;
+mod lamps;
 mod paint;
+mod patterns;
 mod placed;
 mod reference;
 mod shade;
@@ -37,14 +39,14 @@ pub use guide::add_guide;
 pub(crate) use placed::{OFFSETS, gather_placed};
 pub use placed::{Placed, PlacedBy, shade_placed};
 pub use reference::{grid_offsets, render_reference};
-pub use shade::Surface;
+pub use shade::{GuideLight, Surface};
 pub use shifted::Shifted;
 
 /// Draws one scene at one size, sampled anywhere in a pixel.
 ///
 /// An `offset` is in pixels from each pixel's centre, x to the right, y down. Usually each axis is in -0.5..=0.5; any
 /// finite offset works, and a whole number shifts the picture.
-pub trait Renderer {
+pub trait Renderer: Sync {
     /// Width and height of what is drawn, in pixels.
     fn size(&self) -> UVec2;
 
@@ -62,7 +64,7 @@ pub trait Renderer {
 
     /// Linear colour of each pixel shaded `offset` from its centre. RGB is in 0..=1 but on what is polished or shines by
     /// itself ([`Material::Glossy`](crate::scene::Material::Glossy), [`Material::Emissive`](crate::scene::Material::Emissive)):
-    /// there it goes up to 65504, the largest half. Alpha is 1.
+    /// there, and on everything in a scene with lamps, it goes up to 65504, the largest half. Alpha is 1.
     ///
     /// # Errors
     ///
@@ -91,7 +93,12 @@ pub trait Renderer {
     /// Returns a cheap estimate of [`shade_surface`](Self::shade_surface), as `guide=add` needs it: the albedo times the sun's light
     /// where no shadow falls and one constant of ambient light, the sun's highlight, the light that the surface emits, and haze. In
     /// the sky it is the sky's colour.
-    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3;
+    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3 {
+        self.guide_by(GuideLight::default(), surface, place)
+    }
+
+    /// [`guide`](Self::guide) that knows less or more of the light.
+    fn guide_by(&self, known: GuideLight, surface: &Surface, place: Vec2) -> Vec3;
 
     /// Albedo of what is seen `offset` from each pixel's centre, linear RGB, and in alpha the share of the sun's light that no
     /// shadow keeps away. Of what shines by itself the albedo is what it shines with; of the sky 1.

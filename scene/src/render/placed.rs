@@ -7,7 +7,7 @@ use glam::{IVec2, Vec2, Vec3, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_kernels::sraa::{Difference, GBuffer, Metric, Pattern, Sraa, View, sraa_place};
+use straightline_kernels::sraa::{Difference, GBuffer, Metric, Pattern, Projection, Sraa, View, sraa_place};
 
 /// Offsets that differ: with this metric it is only counted how many there are.
 pub(crate) static OFFSETS: [f32; 2 * MAX_SAMPLES] = {
@@ -69,6 +69,17 @@ impl PlacedBy {
         others.cloned().chain(own).collect()
     }
 
+    /// [`options`](Self::options) for a camera with parallel rays, as [`gbuffer::in_parallel`] has them.
+    fn settings_in_parallel(self, height: f32) -> Sraa {
+        let settings = self.settings();
+        Sraa {
+            projection: Projection::Parallel,
+            difference: Difference::Absolute,
+            depth_scale: settings.depth_scale / height,
+            ..settings
+        }
+    }
+
     /// Settings of the kernels as rustc compiles them.
     fn settings(self) -> Sraa {
         let relative = Sraa {
@@ -107,12 +118,19 @@ impl Surfaces {
                 Some(_) => &[],
                 None => &OFFSETS[..2 * capture.samples.len().min(MAX_SAMPLES)],
             },
-            ..by.settings()
+            ..match capture.camera.and_then(|camera| camera.parallel_height) {
+                Some(height) => by.settings_in_parallel(height),
+                None => by.settings(),
+            }
         };
-        let [ray_corner, ray_right, ray_down] = match by {
-            PlacedBy::Depths => [Vec3::ZERO; 3],
+        // Rays through the picture's corner and straight ahead, of which one projection each has use, and their steps.
+        let [corner, ahead, right, down] = match (by, capture.perspective_rays(), capture.parallel_rays()) {
+            (PlacedBy::Depths, ..) => [Vec3::ZERO; 4],
             // Of a pattern without a name it is not known where a sample lies.
-            PlacedBy::Planes => pattern.and_then(|_| capture.perspective_rays())?,
+            (PlacedBy::Planes, ..) if pattern.is_none() => return None,
+            (PlacedBy::Planes, Some([corner, right, down]), _) => [corner, Vec3::ZERO, right, down],
+            (PlacedBy::Planes, None, Some([ahead, right, down])) => [Vec3::ZERO, ahead, right, down],
+            (PlacedBy::Planes, None, None) => return None,
         };
         let with_fourth = |layer: &Frame<Vec3>| {
             let texels = layer.texels().iter().map(|n| n.extend(0.0));
@@ -124,10 +142,10 @@ impl Surfaces {
             ..GBuffer::unread()
         };
         let view = View {
-            ray_corner,
-            ray_right,
-            ray_down,
-            ray_forward: Vec3::ZERO,
+            ray_corner: corner,
+            ray_right: right,
+            ray_down: down,
+            ray_forward: ahead,
             origin: IVec2::ZERO,
             near: 1.0,
             far: 1.0,

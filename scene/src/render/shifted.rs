@@ -1,6 +1,6 @@
 //! A picture that is moved by some pixels.
 
-use super::{RenderError, Renderer, Surface};
+use super::{GuideLight, RenderError, Renderer, Surface};
 use crate::scene::Camera;
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use straightline_kernels::prelude::Frame;
@@ -46,7 +46,7 @@ impl Renderer for Shifted<'_> {
         self.renderer.direct_light(surface, place + self.by)
     }
 
-    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        self.renderer.guide(surface, place + self.by)
+    fn guide_by(&self, known: GuideLight, surface: &Surface, place: Vec2) -> Vec3 {
+        self.renderer.guide_by(known, surface, place + self.by)
     }
 }

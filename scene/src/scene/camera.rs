@@ -1,11 +1,11 @@
 //! Camera of a scene, and its place.
 
 use super::SKY_DEPTH;
-use glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_at_mat4};
+use glam::camera::rh::{proj::directx, view::look_at_mat4};
 use glam::{Mat4, UVec2, Vec2, Vec3, vec2, vec3};
 use serde::{Deserialize, Serialize};
 
-/// A pinhole camera. View space is right-handed: x right, y up, z towards the viewer.
+/// A camera. View space is right-handed: x right, y up, z towards the viewer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
@@ -19,12 +19,15 @@ pub struct Camera {
     #[serde(default)]
     pub vertical_fov: f32,
     /// Of a parallel (orthographic) projection: the distance between the picture's upper and lower edge in scene units,
-    /// above 0. Captures may have such a camera, scenes not.
+    /// above 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parallel_height: Option<f32>,
     /// Linear depth before which nothing is drawn, in scene units, above 0.
     pub near: f32,
 }
+
+/// Heights of the picture from the near plane to the far one of a parallel projection.
+const FAR: f32 = 1000.0;
 
 impl Camera {
     /// World space to view space: a rotation and a shift.
@@ -33,12 +36,21 @@ impl Camera {
     }
 
     /// View space to clip space of a picture of `size` pixels sampled `offset` pixels (x right, y down) from each
-    /// pixel's centre. z/w is 1 at `near` and falls to 0 at infinity; w is linear depth.
+    /// pixel's centre. z/w is 1 at `near` and falls to 0 at infinity; w is linear depth. Of a parallel projection, w is 1 and
+    /// z falls to 0 at a thousand times the height of what is seen.
     pub fn projection(&self, size: UVec2, offset: Vec2) -> Mat4 {
         let aspect = size.x as f32 / size.y as f32;
         // The shift moves points that lie right of the centre by `offset` onto it.
         let shift = vec2(-offset.x, offset.y) * 2.0 / size.as_vec2();
-        Mat4::from_translation(shift.extend(0.0)) * perspective_infinite_reverse(self.vertical_fov, aspect, self.near)
+        let seen = match self.parallel_height {
+            // Near and far change places, as in the other projection.
+            Some(height) => {
+                let [half, far] = [0.5 * height, self.near + FAR * height];
+                directx::orthographic(-half * aspect, half * aspect, -half, half, far, self.near)
+            }
+            None => directx::perspective_infinite_reverse(self.vertical_fov, aspect, self.near),
+        };
+        Mat4::from_translation(shift.extend(0.0)) * seen
     }
 
     /// Half the width and height of what is seen at linear depth 1, in scene units; of a parallel projection at any depth.
@@ -90,9 +102,6 @@ impl Camera {
         }
         if (target - position).cross(up).length_squared() <= 0.0 {
             return Err("the camera's view direction is nothing, or its up vector points along it".to_owned());
-        }
-        if self.parallel_height.is_some() {
-            return Err("a scene is drawn in perspective: its camera has no `parallel_height`".to_owned());
         }
         self.check_projection()?;
         if !(self.near > 0.0 && self.near < SKY_DEPTH) {
@@ -227,7 +236,7 @@ mod tests {
         assert!(refused(|camera| camera.target = camera.position).contains("direction"));
         assert!(refused(|camera| camera.up = [0.0, 0.0, 1.0]).contains("up"));
         assert!(refused(|camera| camera.vertical_fov = f32::NAN).contains("angle"));
-        assert!(refused(|camera| camera.parallel_height = Some(4.0)).contains("perspective"));
+        assert!(refused(|camera| camera.parallel_height = Some(0.0)).contains("parallel_height"));
         assert!(refused(|camera| camera.near = 0.0).contains("near"));
         assert!(refused(|camera| camera.position[1] = f32::INFINITY).contains("finite"));
     }

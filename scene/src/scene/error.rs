@@ -19,7 +19,7 @@ pub enum SceneError {
         path: PathBuf,
     },
     /// There is no built-in scene of this name.
-    #[error("there is no scene `{name}`; there are {}", super::NAMES.iter().chain(&super::OF_SHADING).map(|(name, _)| *name).collect::<Vec<_>>().join(", "))]
+    #[error("there is no scene `{name}`; there are {}", super::NAMES.iter().chain(&super::FURTHER).map(|(name, _)| *name).collect::<Vec<_>>().join(", "))]
     UnknownName {
         /// The name.
         name: String,

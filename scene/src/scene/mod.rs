@@ -19,7 +19,7 @@ pub use builtin::builtin_scene;
 pub use camera::{Camera, Viewpoint};
 pub use error::SceneError;
 pub use load::{load_scene, load_seen};
-pub use named::{NAMES, OF_SHADING};
+pub use named::{FURTHER, NAMES};
 pub(crate) use textures::decode_texel;
 pub use textures::{Image, Textures};
 
@@ -45,6 +45,13 @@ pub struct Scene {
     pub sun: Sun,
     /// Background, and light from all around.
     pub sky: Sky,
+    /// More light from all around on a white surface: linear RGB to multiply with 1, x, y, z, xy, yz, 3z² − 1, xz and x² − y² of
+    /// the normal in world space.
+    pub environment: [[f32; 3]; 9],
+    /// At most [`MAX_LAMPS`].
+    pub lamps: Vec<Lamp>,
+    /// What casts shadows in the light of lamps and sun, whatever triangles there are. At most [`MAX_SHADES`].
+    pub shades: Vec<Shade>,
     /// Camera that sees the scene.
     pub camera: Camera,
 }
@@ -90,6 +97,8 @@ pub enum Material {
     Emissive = 5,
     /// Painted with dark dots that have hard edges, three to a unit of the world.
     Dots = 6,
+    /// Studs, four to a unit of the world, which normals alone show, as of a normal map; a rough highlight.
+    Studded = 7,
 }
 
 /// Radiance of a white [`Material::Emissive`], where a white surface in the sun is about 1.
@@ -102,6 +111,32 @@ pub struct Sun {
     pub direction: [f32; 3],
     /// Linear RGB of a white surface that faces the sun and nothing else lights.
     pub color: [f32; 3],
+}
+
+/// Most lamps of a scene.
+pub const MAX_LAMPS: usize = 4;
+
+/// Most balls of a scene that cast shadows.
+pub const MAX_SHADES: usize = 8;
+
+/// Light from one place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lamp {
+    /// In world space.
+    pub place: [f32; 3],
+    /// Linear RGB of a white surface close to it that faces it.
+    pub color: [f32; 3],
+    /// Distance at which half of the light is left, in scene units, above 0.
+    pub reach: f32,
+}
+
+/// A ball that casts shadows with hard edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shade {
+    /// In world space.
+    pub centre: [f32; 3],
+    /// In scene units, above 0.
+    pub radius: f32,
 }
 
 /// Background where there is no geometry, and the light that comes from there. Linear RGB.
@@ -119,7 +154,8 @@ pub struct Sky {
 
 impl Scene {
     /// Refuses what no renderer could draw: a scene without triangles, indices out of range, numbers that are not
-    /// finite or beyond [`SKY_DEPTH`], normals that are not unit vectors, and a camera that does not see.
+    /// finite or beyond [`SKY_DEPTH`], normals that are not unit vectors, more lamps and shadows than there is room for, and a
+    /// camera that does not see.
     ///
     /// # Errors
     ///
@@ -165,6 +201,37 @@ impl Scene {
                 return refuse(format!("vertex {at} is {:?}, as far away as the sky", vertex.position));
             }
         }
+        self.check_lamps().or_else(refuse)?;
         self.camera.check().or_else(refuse)
+    }
+
+    fn check_lamps(&self) -> Result<(), String> {
+        let (lamps, shades) = (self.lamps.len(), self.shades.len());
+        if lamps > MAX_LAMPS || shades > MAX_SHADES {
+            return Err(format!(
+                "there are {lamps} lamps and {shades} shades, and room for {MAX_LAMPS} and {MAX_SHADES}"
+            ));
+        }
+        let usable =
+            |length: f32, values: &[[f32; 3]]| length > 0.0 && values.as_flattened().iter().all(|v| v.is_finite());
+        if let Some(lamp) = self
+            .lamps
+            .iter()
+            .find(|lamp| !usable(lamp.reach, &[lamp.place, lamp.color]))
+        {
+            return Err(format!("a lamp has a number that is not finite, or no reach: {lamp:?}"));
+        }
+        if let Some(shade) = self.shades.iter().find(|shade| !usable(shade.radius, &[shade.centre])) {
+            return Err(format!(
+                "a shade has a number that is not finite, or no radius: {shade:?}"
+            ));
+        }
+        match usable(1.0, &self.environment) {
+            true => Ok(()),
+            false => Err(format!(
+                "the environment has a number that is not finite: {:?}",
+                self.environment
+            )),
+        }
     }
 }

@@ -9,7 +9,7 @@ use std::collections::btree_map::Entry;
 use straightline_kernels::prelude::Frame;
 use straightline_scene::capture::{Capture, ShadingSample, mean_frame};
 use straightline_scene::gbuffer;
-use straightline_scene::render::{self, Aggregated, Extra, Renderer};
+use straightline_scene::render::{self, Aggregated, Extra, GuideLight, Renderer};
 
 /// Of so many pixels one may be shaded once more: 2 %.
 pub const BUDGET: usize = 50;
@@ -60,7 +60,7 @@ impl Shot {
                 && capture.guide.is_none()
             {
                 check_stopped(progress)?;
-                render::add_guide(capture, renderer)?;
+                render::add_guide(capture, renderer, GuideLight::default())?;
             }
             if let Some(capture) = shot.captures.get(&method.capture_name())
                 && method.has_extra()

@@ -1,5 +1,5 @@
-//! Errors that each of the filter's additions beyond the paper fixes, at six places, and the worst remaining error: the
-//! picture of `docs/beyond-the-paper.md`.
+//! Errors that the filter's additions beyond the paper fix, each at one place, and the worst remaining error: the pictures of
+//! `docs/beyond-the-paper.md`, one of a guide and one of all else.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -7,13 +7,13 @@ use straightline_bench::execute::Bench;
 use straightline_codegen::{Stage, Unroll};
 use straightline_kernels::prelude::{Frame, UVec2, Vec4, uvec2};
 use straightline_scene::capture::ShadingSample;
-use straightline_scene::render::{self, CpuRenderer, PlacedBy};
+use straightline_scene::render::{self, CpuRenderer, GuideLight, PlacedBy};
 use straightline_scene::scene::Scene;
 use straightline_scene::{gbuffer, picture};
 use straightline_tests::sraa::compiled;
-use straightline_tests::sraa::options::{Options, options, value};
+use straightline_tests::sraa::options::{Options, options};
 
-const USAGE: &str = "usage: beyond FILE.png";
+const USAGE: &str = "usage: beyond guide|geometry FILE.png";
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -26,16 +26,38 @@ const PLACED: (&str, &str) = ("shading", "placed");
 const SEARCHED: (&str, &str) = ("search", "five");
 const EXTRA: (&str, &str) = ("extra", "true");
 const KEPT_EVEN: [(&str, &str); 2] = [("mask", "branch"), ("variation", "within")];
-const LIGHT: [(&str, &str); 2] = [("demodulate", "albedo-shadow"), ("rest", "true")];
+const FULL: (&str, &[(&str, &str)]) = ("full", &[("preset", "full")]);
+const GUIDED: (&str, &[(&str, &str)]) = ("guided", &[("preset", "guided")]);
 
-/// A scene with two variants: title and options of each, in addition to those of [`PlacedBy::Planes`].
+/// A scene with two variants: title and options of each.
+#[derive(Clone, Copy)]
 struct Row {
     scene: &'static str,
     without: (&'static str, &'static [(&'static str, &'static str)]),
     with: (&'static str, &'static [(&'static str, &'static str)]),
 }
 
-const ROWS: [Row; 6] = [
+/// Paint, a shadow, highlights, a normal map, a horizon, and several lights of which the guide knows one.
+const OF_A_GUIDE: [Row; 6] = {
+    const fn row(scene: &'static str) -> Row {
+        Row {
+            scene,
+            without: FULL,
+            with: GUIDED,
+        }
+    }
+    [
+        row("posters"),
+        row("awning"),
+        row("sparkle"),
+        row("relief"),
+        row("floor"),
+        row("studio"),
+    ]
+};
+
+/// Options are in addition to those of [`PlacedBy::Planes`].
+const OF_GEOMETRY: [Row; 5] = [
     Row {
         scene: "railings",
         without: ("SRAA 4", &[]),
@@ -52,11 +74,6 @@ const ROWS: [Row; 6] = [
         with: ("once more", &[PLACED, SEARCHED, EXTRA]),
     },
     Row {
-        scene: "posters",
-        without: ("placed, searched", &[PLACED, SEARCHED]),
-        with: ("light apart", &[PLACED, SEARCHED, LIGHT[0], LIGHT[1]]),
-    },
-    Row {
         scene: "sparkle",
         without: ("SRAA 4", &[]),
         with: ("kept even", &KEPT_EVEN),
@@ -70,11 +87,15 @@ const ROWS: [Row; 6] = [
 
 fn main() -> ExitCode {
     let words: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
-    let [path] = &words[..] else {
-        eprintln!("{USAGE}");
-        return ExitCode::from(2);
+    let (rows, basis, path) = match &words[..] {
+        [what, path] if what.as_os_str() == "guide" => (&OF_A_GUIDE[..], &[][..], path),
+        [what, path] if what.as_os_str() == "geometry" => (&OF_GEOMETRY[..], PlacedBy::Planes.options(), path),
+        _ => {
+            eprintln!("{USAGE}");
+            return ExitCode::from(2);
+        }
     };
-    let written = rows().and_then(|rows| Ok(picture::write_png(path, &below(&rows))?));
+    let written = pictures(rows, basis).and_then(|rows| Ok(picture::write_png(path, &below(&rows))?));
     match written {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -84,24 +105,23 @@ fn main() -> ExitCode {
     }
 }
 
-fn rows() -> Result<Vec<Frame<Vec4>>, Failure> {
+/// Shows all rows, with the options of `basis`; the last where the remaining error is largest.
+fn pictures(rows: &[Row], basis: &[(&str, &str)]) -> Result<Vec<Frame<Vec4>>, Failure> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;
     let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?;
     let bench = Bench::new(&device, &queue, false);
-    ROWS.iter()
-        .enumerate()
-        .map(|(k, row)| shown(&bench, row, k + 1 == ROWS.len()))
+    let each = rows.iter().enumerate();
+    each.map(|(k, row)| shown(&bench, row, basis, k + 1 == rows.len()))
         .collect()
 }
 
 /// Shows the detail where `with` improves most on `without`, or with `worst` the detail where its error is largest.
-fn shown(bench: &Bench, row: &Row, worst: bool) -> Result<Frame<Vec4>, Failure> {
+fn shown(bench: &Bench, row: &Row, basis: &[(&str, &str)], worst: bool) -> Result<Frame<Vec4>, Failure> {
     let scene = Scene::from_name(row.scene)?;
     let renderer = CpuRenderer::new(&scene, SIZE)?;
     let reference = render::render_reference(&renderer, 16, &mut |_, _| {})?;
-    let drawn =
-        |own: &[(&str, &str)]| filtered(bench, &renderer, &options(&[PlacedBy::Planes.options(), own].concat()));
+    let drawn = |own: &[(&str, &str)]| filtered(bench, &renderer, &options(&[basis, own].concat()));
     let (without, with) = (drawn(row.without.1)?, drawn(row.with.1)?);
     let off = |frame: &Frame<Vec4>, k: usize| {
         (frame.texels()[k] - reference.texels()[k])
@@ -137,16 +157,17 @@ fn shown(bench: &Bench, row: &Row, worst: bool) -> Result<Frame<Vec4>, Failure> 
 
 fn filtered(bench: &Bench, renderer: &CpuRenderer, set: &Options) -> Result<Frame<Vec4>, Failure> {
     let samples = gbuffer::pattern_offsets("latin4").ok_or("no such pattern")?;
-    let mut capture = match value(set, "shading", "centre") {
-        "placed" => render::capture_placed(renderer, &samples, PlacedBy::Planes)?,
+    let compiled = compiled(set, Unroll::Full)?;
+    let set = &compiled.options;
+    let mut capture = match set.choice("shading") {
+        Some("placed") => render::capture_placed(renderer, &samples, PlacedBy::Planes)?,
         _ => render::capture_scene(renderer, &samples, ShadingSample::Centre)?,
     };
-    if value(set, "demodulate", "none") != "none" {
-        render::add_albedo(&mut capture, renderer)?;
+    if set.choice("guide") == Some("add") {
+        render::add_guide(&mut capture, renderer, GuideLight::default())?;
     }
-    let compiled = compiled(set, Unroll::Full)?;
-    let inputs = match value(set, "extra", "false") {
-        "true" => {
+    let inputs = match set.flag("extra") {
+        Some(true) => {
             let budget = (SIZE.x * SIZE.y / 50) as usize;
             render::shade_extra(renderer, &capture, budget)?.sraa_inputs(&capture, &compiled.options)?
         }

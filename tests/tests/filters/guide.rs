@@ -12,7 +12,7 @@ use straightline_kernels::prelude::Frame;
 use straightline_oracle::metrics::psnr;
 use straightline_oracle::oracle::{self, SraaParams};
 use straightline_scene::capture::{Capture, ShadingSample, mean_frame};
-use straightline_scene::render::{self, CpuRenderer, PlacedBy, Renderer};
+use straightline_scene::render::{self, CpuRenderer, GuideLight, PlacedBy, Renderer};
 use straightline_scene::scene::Scene;
 use straightline_scene::{gbuffer, picture};
 use straightline_tests::sraa::options::{Options, completed, options, refusal, samples_needed, values};
@@ -313,18 +313,29 @@ fn the_scale_is_that_of_the_definition() {
                 inputs
             };
             let expected = oracle::scale(&inputs, &params).expect("a scale");
-            let [sums, fit] = ["sraa_fit_sums", "sraa_fit"].map(|kernel| compiled(kernel, &set, Unroll::Full));
-            let sums = bench.run_targets(&sums, Stage::Compute, &inputs).expect("sums");
-            let [both, own] = <[_; 2]>::try_from(sums).expect("two targets");
-            let of_sums = Inputs::new(UVec2::ONE)
-                .with_image("both", both.frame())
-                .with_image("own", own.frame());
-            let found = bench.run(&fit, Stage::Compute, &of_sums).expect("a scale").texels()[0];
-            println!("{set:?}: {found}, {expected:?} is expected");
-            for axis in 0..3 {
-                assert!((0.01..4.0).contains(&expected[axis]), "{expected:?}");
-                let off = (f64::from(found[axis]) - expected[axis]).abs();
-                assert!(off < 1.0e-5, "{set:?}: {found}, {expected:?} is expected");
+            let [sums, rows, fit] =
+                ["sraa_fit_sums", "sraa_fit_rows", "sraa_fit"].map(|kernel| compiled(kernel, &set, Unroll::Full));
+            let sums_of = |kernel: &Compiled, size: UVec2, inputs: Inputs| {
+                let sums = bench
+                    .run_targets(kernel, Stage::Compute, &Inputs { size, ..inputs })
+                    .expect("sums");
+                let [both, own] = <[_; 2]>::try_from(sums).expect("two targets");
+                Inputs::new(UVec2::ONE)
+                    .with_image("both", both.frame())
+                    .with_image("own", own.frame())
+            };
+            let tiles = SIZE.map(|side| side.div_ceil(16));
+            // Sums beyond the tiles are of nothing.
+            let of_tiles = sums_of(&sums, SIZE, inputs);
+            let of_rows = sums_of(&rows, uvec2(1, tiles.y), of_tiles.clone());
+            for of_sums in [of_tiles, of_rows] {
+                let found = bench.run(&fit, Stage::Compute, &of_sums).expect("a scale").texels()[0];
+                println!("{set:?}: {found}, {expected:?} is expected");
+                for axis in 0..3 {
+                    assert!((0.01..4.0).contains(&expected[axis]), "{expected:?}");
+                    let off = (f64::from(found[axis]) - expected[axis]).abs();
+                    assert!(off < 1.0e-5, "{set:?}: {found}, {expected:?} is expected");
+                }
             }
         }
     }
@@ -421,7 +432,7 @@ fn judged(name: &str, pattern: &str) -> HashMap<&'static str, f64> {
     let renderer = CpuRenderer::new(&scene, uvec2(320, 180)).expect("a renderer");
     let samples = gbuffer::pattern_offsets(pattern).expect("a pattern");
     let mut capture = render::capture_placed(&renderer, &samples, PlacedBy::Planes).expect("a capture");
-    render::add_guide(&mut capture, &renderer).expect("a guide");
+    render::add_guide(&mut capture, &renderer, GuideLight::default()).expect("a guide");
     let centred = render::capture_scene(&renderer, &samples, ShadingSample::Centre).expect("a capture");
     let reference =
         picture::at_eight_bits(&render::render_reference(&renderer, 16, &mut |_, _| {}).expect("a reference"));
@@ -456,7 +467,7 @@ fn a_scaled_guide_may_have_a_wrong_brightness_and_tint() {
     let renderer = CpuRenderer::new(&scene, uvec2(320, 180)).expect("a renderer");
     let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
     let mut capture = render::capture_placed(&renderer, &samples, PlacedBy::Planes).expect("a capture");
-    render::add_guide(&mut capture, &renderer).expect("a guide");
+    render::add_guide(&mut capture, &renderer, GuideLight::default()).expect("a guide");
     let reference =
         picture::at_eight_bits(&render::render_reference(&renderer, 16, &mut |_, _| {}).expect("a reference"));
     let bench = bench();
@@ -497,5 +508,38 @@ fn paint_shadow_and_haze_come_close_to_supersampling() {
                 assert!(all[preset] > all["paper"], "{name} {pattern}: {all:?}");
             }
         }
+    }
+}
+
+/// With four lamps, an environment and studs, a guide of the sun alone helps, and each light that it knows more helps more.
+#[test]
+fn a_guide_that_knows_more_lights_is_better() {
+    let scene = Scene::from_name("studio").expect("a scene");
+    let renderer = CpuRenderer::new(&scene, uvec2(240, 135)).expect("a renderer");
+    let reference =
+        picture::at_eight_bits(&render::render_reference(&renderer, 16, &mut |_, _| {}).expect("a reference"));
+    let bench = bench();
+    for pattern in ["latin4", "latin16"] {
+        let samples = gbuffer::pattern_offsets(pattern).expect("a pattern");
+        let mut capture = render::capture_placed(&renderer, &samples, PlacedBy::Planes).expect("a capture");
+        let filtered = |capture: &Capture, preset: &str| {
+            let options = options(&[("preset", preset), ("pattern", pattern)]);
+            let compiled = compiled("sraa", &options, Unroll::Full);
+            let inputs = gbuffer::sraa_inputs(capture, &compiled.options).expect("inputs");
+            let made = bench.run(&compiled, Stage::Compute, &inputs).expect("a picture");
+            psnr(&picture::at_eight_bits(&made), &reference)
+        };
+        let none = filtered(&capture, "full");
+        let mut all = Vec::new();
+        for known in GuideLight::ALL {
+            render::add_guide(&mut capture, &renderer, known).expect("a guide");
+            all.push(filtered(&capture, "guided"));
+            println!("{pattern}, {known:?}: {:.2} dB, without {none:.2}", all[all.len() - 1]);
+        }
+        let shaded: Result<Vec<_>, _> = samples.iter().map(|at| renderer.draw_shaded(*at)).collect();
+        let supersampled = picture::at_eight_bits(&mean_frame(&shaded.expect("pictures")).expect("a mean"));
+        println!("{pattern}, supersampled: {:.2} dB", psnr(&supersampled, &reference));
+        assert!(all.is_sorted_by(|less, more| *more > less - 0.05), "{all:?}");
+        assert!(all[0] > none - 0.2 && all[4] > all[0] + 1.0, "without {none}: {all:?}");
     }
 }

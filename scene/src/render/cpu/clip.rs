@@ -21,13 +21,15 @@ pub(super) struct ScreenTriangle {
     pub front: bool,
     /// Linear depth at the whole triangle's corners.
     pub depths: Vec3,
-    /// Smallest and largest reciprocal of depth in this piece. Between pixels and rounded corners, planes seen
+    /// Smallest and largest nearness (clip-space z/w) in this piece. Between pixels and rounded corners, planes seen
     /// edge-on would reach beyond.
     pub reach: [f32; 2],
     /// Takes a place on the screen, (x, y, 1) in -1..=1, to the shares of the whole triangle's corners there,
     /// divided by depth. They are the homogeneous barycentric coordinates (Olano and Greer 1997), which exist
     /// even where corners lie behind the camera.
     to_shares: DMat3,
+    /// Clip-space z of the whole triangle's corners.
+    nearness: Vec3,
 }
 
 impl ScreenTriangle {
@@ -43,9 +45,10 @@ impl ScreenTriangle {
         }
     }
 
-    /// The reciprocal of depth at the centre of pixel (0, y), and how it grows from pixel to pixel to the right.
-    pub fn inverse_depth_row(&self, y: u32, size: UVec2) -> (f64, f64) {
-        let total = self.to_shares.transpose() * DVec3::ONE;
+    /// The nearness at the centre of pixel (0, y), and how it grows from pixel to pixel to the right. It is linear on the
+    /// screen in either projection.
+    pub fn nearness_row(&self, y: u32, size: UVec2) -> (f64, f64) {
+        let total = self.to_shares.transpose() * self.nearness.as_dvec3();
         let start = total.dot(screen_position([0.0, f64::from(y)], size));
         (start, total.x * 2.0 / f64::from(size.x))
     }
@@ -57,19 +60,20 @@ fn screen_position([x, y]: [f64; 2], size: UVec2) -> DVec3 {
     dvec3((x + 0.5) * 2.0 / size.x - 1.0, 1.0 - (y + 0.5) * 2.0 / size.y, 1.0)
 }
 
-/// The pieces of a triangle with clip-space `corners` that a picture of `size` shows.
-pub(super) fn project_triangle(source: u32, corners: [Vec4; 3], near: f32, size: UVec2) -> Pieces {
+/// The pieces of a triangle with clip-space `corners` at linear `depths` that a picture of `size` shows.
+pub(super) fn project_triangle(source: u32, corners: [Vec4; 3], depths: Vec3, size: UVec2) -> Pieces {
     let mut pieces = Pieces {
         found: [None; MAX_CORNERS - 2],
         next: 0,
     };
-    // All corners are outside one edge of the picture, or in front of the near plane.
+    // All corners are outside one edge of the picture, in front of the near plane, or beyond the far one.
     let outside = |far: fn(Vec4) -> bool| corners.iter().all(|corner| far(*corner));
     if outside(|c| c.x > c.w)
         || outside(|c| c.x < -c.w)
         || outside(|c| c.y > c.w)
         || outside(|c| c.y < -c.w)
-        || corners.iter().all(|corner| corner.w < near)
+        || outside(|c| c.z > c.w)
+        || outside(|c| c.z < 0.0)
     {
         return pieces;
     }
@@ -84,11 +88,12 @@ pub(super) fn project_triangle(source: u32, corners: [Vec4; 3], near: f32, size:
         corners: [[0; 2]; 3],
         source,
         front: determinant > 0.0,
-        depths: Vec3::from(corners.map(|corner| corner.w)),
+        depths,
         reach: [0.0; 2],
         to_shares: to_clip.inverse(),
+        nearness: Vec3::from(corners.map(|corner| corner.z)),
     };
-    let polygon = Polygon::from_triangle(corners).clip_to_view(near);
+    let polygon = Polygon::from_triangle(corners).clip_to_view();
     let screen = |corner: &Vec4| {
         let step = |place: f32, side: u32| ((0.5 + 0.5 * place) * (side as f32 * STEPS as f32)).round() as i32;
         [step(corner.x / corner.w, size.x), step(-corner.y / corner.w, size.y)]
@@ -103,12 +108,12 @@ pub(super) fn project_triangle(source: u32, corners: [Vec4; 3], near: f32, size:
         let [a, b, c] = piece.each_ref().map(screen);
         let area = doubled_area(a, b, c);
         if area != 0 {
-            let reciprocals = piece.map(|corner| 1.0 / corner.w);
+            let nearness = piece.map(|corner| corner.z / corner.w);
             *found = Some(ScreenTriangle {
                 corners: if area > 0 { [a, b, c] } else { [a, c, b] },
                 reach: [
-                    reciprocals.into_iter().fold(f32::INFINITY, f32::min),
-                    reciprocals.into_iter().fold(0.0, f32::max),
+                    nearness.into_iter().fold(f32::INFINITY, f32::min),
+                    nearness.into_iter().fold(0.0, f32::max),
                 ],
                 ..whole
             });
@@ -121,8 +126,8 @@ fn doubled_area([ax, ay]: [i32; 2], [bx, by]: [i32; 2], [cx, cy]: [i32; 2]) -> i
     i64::from(bx - ax) * i64::from(cy - ay) - i64::from(by - ay) * i64::from(cx - ax)
 }
 
-/// Each of the five planes can add a corner to a triangle.
-const MAX_CORNERS: usize = 8;
+/// Each of the six planes can add a corner to a triangle.
+const MAX_CORNERS: usize = 9;
 
 /// Pieces of one triangle.
 pub(super) struct Pieces {
@@ -165,9 +170,10 @@ impl Polygon {
         }
     }
 
-    /// The part beyond the near plane and within the guard band.
-    fn clip_to_view(self, near: f32) -> Polygon {
-        self.cut(|corner| corner.w - near)
+    /// The part between the near and the far plane and within the guard band.
+    fn clip_to_view(self) -> Polygon {
+        self.cut(|corner| corner.w - corner.z)
+            .cut(|corner| corner.z)
             .cut(|corner| GUARD * corner.w - corner.x)
             .cut(|corner| GUARD * corner.w + corner.x)
             .cut(|corner| GUARD * corner.w - corner.y)

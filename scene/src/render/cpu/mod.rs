@@ -5,8 +5,8 @@ mod raster;
 
 use super::frame::{Lighting, Pass};
 use super::paint::sample_texture;
-use super::shade::{self, Surface, direct_light, guide, shade_surface, surface_paint};
-use super::{RenderError, Renderer};
+use super::shade::{GuideLight, Surface, direct_light, guide, shade_surface, surface_paint};
+use super::{RenderError, Renderer, patterns};
 use crate::scene::{Camera, Image, Material, Scene, Vertex};
 use clip::ScreenTriangle;
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2, vec2};
@@ -88,7 +88,7 @@ impl CpuRenderer {
             let shares = triangle.corner_shares(pixel, self.size).as_vec3();
             if is_fence {
                 let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
-                if !shade::is_wire(a * shares.x + b * shares.y + c * shares.z) {
+                if !patterns::is_wire(a * shares.x + b * shares.y + c * shares.z) {
                     return false;
                 }
             }
@@ -122,22 +122,29 @@ impl CpuRenderer {
         };
         let shares = triangle.corner_shares(pixel, self.size).as_vec3();
         let [u, v, density] = mix(corners.map(|c| [c.uv[0], c.uv[1], c.density]), shares).to_array();
-        let view = pass.ray(&self.lighting, pixel).normalize();
-        let away = shares.dot(triangle.depths) * pass.pixel_angle;
-        let footprint = away * density / normal.dot(view).abs().max(0.05);
-        sample_texture(&self.scene.textures, number, vec2(u, v), footprint)
+        let footprint = self.footprint(pass, pixel, shares.dot(triangle.depths), normal);
+        sample_texture(&self.scene.textures, number, vec2(u, v), footprint * density)
+    }
+
+    /// Returns the units of a surface to a pixel.
+    fn footprint(&self, pass: &Pass, pixel: UVec2, depth: f32, normal: Vec3) -> f32 {
+        let along = pass.ray(&self.lighting, pixel).along.normalize();
+        self.lighting.pixel_size(depth) / normal.dot(along).abs().max(0.05)
     }
 
     /// Every triangle that may be seen, in order.
     fn project(&self, pass: &Pass) -> Vec<ScreenTriangle> {
-        let corner = |vertex: &crate::scene::Vertex| pass.to_clip * Vec3::from(vertex.position).extend(1.0);
-        let corners: Vec<Vec4> = self.scene.vertices.par_iter().map(corner).collect();
-        let near = self.scene.camera.near;
+        let corner = |vertex: &Vertex| {
+            let place = Vec3::from(vertex.position).extend(1.0);
+            (pass.to_clip * place, -(pass.to_view * place).z)
+        };
+        let corners: Vec<(Vec4, f32)> = self.scene.vertices.par_iter().map(corner).collect();
         let triangles = self.scene.triangles.par_iter().enumerate();
         triangles
             .flat_map_iter(|(source, triangle)| {
                 let corners = triangle.map(|index| corners[index as usize]);
-                clip::project_triangle(source as u32, corners, near, self.size)
+                let depths = corners.map(|(_, depth)| depth).into();
+                clip::project_triangle(source as u32, corners.map(|(clip, _)| clip), depths, self.size)
             })
             .collect()
     }
@@ -146,13 +153,19 @@ impl CpuRenderer {
     fn surface(&self, pass: &Pass, triangle: &ScreenTriangle, pixel: UVec2) -> Surface {
         let shares = triangle.corner_shares(pixel, self.size).as_vec3();
         let corners = self.corners(triangle);
-        let normal = self.normal(pass, corners, shares);
+        let mut normal = self.normal(pass, corners, shares);
         let paint = self.texture_color(pass, triangle, pixel, normal).truncate();
+        let (depth, material) = (shares.dot(triangle.depths), corners[0].material);
+        if material == Material::Studded as u32 {
+            let place = mix(corners.map(|corner| corner.position), shares);
+            let slope = patterns::studs(place, self.footprint(pass, pixel, depth, normal));
+            normal = patterns::tilted(normal, pass.to_view.transform_vector3(slope));
+        }
         Surface {
             normal: if triangle.front { normal } else { -normal },
-            depth: shares.dot(triangle.depths),
+            depth,
             color: mix(corners.map(|vertex| vertex.color), shares) * paint,
-            material: corners[0].material as f32,
+            material: material as f32,
         }
     }
 }
@@ -207,7 +220,7 @@ impl Renderer for CpuRenderer {
         direct_light(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 
-    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        guide(&self.lighting, surface, self.lighting.ray(place, self.size))
+    fn guide_by(&self, known: GuideLight, surface: &Surface, place: Vec2) -> Vec3 {
+        guide(&self.lighting, surface, self.lighting.ray(place, self.size), known)
     }
 }

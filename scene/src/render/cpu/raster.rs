@@ -49,7 +49,7 @@ impl Visible {
     ) -> Self {
         let width = size.x as usize;
         let mut visible = vec![NONE; width * size.y as usize];
-        // Reciprocals of depth; without a surface, infinitely far.
+        // Without a surface, infinitely far.
         let mut nearest = vec![0.0_f32; visible.len()];
         for &at in inside {
             let triangle = &triangles[at as usize];
@@ -61,16 +61,16 @@ impl Visible {
                 let Some([left, right]) = pixel_span(triangle, y, size.x) else {
                     continue;
                 };
-                let (start, step) = triangle.inverse_depth_row(y as u32, picture);
+                let (start, step) = triangle.nearness_row(y as u32, picture);
                 let (start, step) = ((start + step * left as f64) as f32, step as f32);
                 let row = (y as usize - top as usize) * width;
                 let pixels = row + left..=row + right;
                 let depths = nearest[pixels.clone()].iter_mut().zip(&mut visible[pixels]);
                 for (i, (nearest, visible)) in depths.enumerate() {
-                    let reciprocal = (start + step * i as f32).clamp(least, most);
+                    let nearness = (start + step * i as f32).clamp(least, most);
                     let seen = |there: &H| there(uvec2((left + i) as u32, y as u32));
-                    if reciprocal > *nearest && there.as_ref().is_none_or(seen) {
-                        *nearest = reciprocal;
+                    if nearness > *nearest && there.as_ref().is_none_or(seen) {
+                        *nearest = nearness;
                         *visible = at;
                     }
                 }
@@ -119,7 +119,7 @@ mod tests {
     use glam::{Vec4, vec4};
 
     fn covered(corners: [Vec4; 3], size: UVec2) -> Vec<u32> {
-        let triangles: Vec<_> = project_triangle(0, corners, 0.1, size).collect();
+        let triangles: Vec<_> = project_triangle(0, corners, corners.map(|corner| corner.w).into(), size).collect();
         let inside: Vec<u32> = (0..triangles.len() as u32).collect();
         let whole = |_: &ScreenTriangle| None::<fn(UVec2) -> bool>;
         let visible = Visible::draw(&triangles, &inside, 0, size, size, whole);

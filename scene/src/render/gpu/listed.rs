@@ -34,7 +34,7 @@ impl<'a> Listed<'a> {
         let device = &renderer.device;
         with_error_scope(device, "compiling the renderer's shaders", || {
             let text = [
-                include_str!("../shade.wgsl"),
+                &renderer.pipelines.shade_text,
                 include_str!("shading.wgsl"),
                 include_str!("listed.wgsl"),
             ];

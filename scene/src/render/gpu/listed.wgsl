@@ -20,7 +20,6 @@ fn light_listed(@builtin(global_invocation_id) id: vec3u) {
     let geometry = textureLoad(normal_depth, pixel, 0);
     let paint = textureLoad(color_material, pixel, 0);
     let place = (vec2f(pixel) + 0.5 + frame.offset) / vec2f(frame.size) * 2.0 - 1.0;
-    let ray = vec3f(place.x * lighting.extent.x, -place.y * lighting.extent.y, -1.0);
-    let color = shade(lighting, Surface(geometry.xyz, geometry.w, paint.xyz, paint.w), ray);
+    let color = shade(Surface(geometry.xyz, geometry.w, paint.xyz, paint.w), ray_through(place));
     colors[pixel.y * frame.size.x + pixel.x] = vec4f(color, 1.0);
 }

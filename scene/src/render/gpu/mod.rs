@@ -10,7 +10,7 @@ mod read;
 mod resources;
 
 use super::frame::{Lighting, Pass};
-use super::shade::{Surface, direct_light, guide, shade_surface, surface_paint};
+use super::shade::{GuideLight, Surface, direct_light, guide, shade_surface, surface_paint};
 use super::{RenderError, Renderer, check_offsets};
 use crate::scene::{Camera, Scene};
 use glam::{UVec2, Vec2, Vec3, Vec4};
@@ -128,8 +128,8 @@ impl Renderer for GpuRenderer {
         direct_light(&self.lighting, surface, self.lighting.ray(place, self.size))
     }
 
-    fn guide(&self, surface: &Surface, place: Vec2) -> Vec3 {
-        guide(&self.lighting, surface, self.lighting.ray(place, self.size))
+    fn guide_by(&self, known: GuideLight, surface: &Surface, place: Vec2) -> Vec3 {
+        guide(&self.lighting, surface, self.lighting.ray(place, self.size), known)
     }
 
     /// Adds up on the device, in 32 bits, and reads back once.

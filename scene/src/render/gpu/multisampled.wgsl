@@ -31,7 +31,7 @@ fn sampled_corner(
     // Not the literal, which a driver may carry over to the fragments as it is.
     let one = f32(min(frame.size.x, 1u));
     let turned = (frame.to_view * vec4f(normal, 0.0)).xyz;
-    return SampledCorner(clip, turned, material, position, vec2f(clip.w, one), vec3f(uv, density), image);
+    return SampledCorner(clip, turned, material, position, vec2f(linear_depth(position), one), vec3f(uv, density), image);
 }
 
 @fragment
@@ -45,5 +45,5 @@ fn sampled_texels(surface: SampledCorner, @builtin(front_facing) front: bool) ->
     if (surface.material == CHAIN_LINK && !is_wire(place)) || paint.color.w < paint.cutoff {
         discard;
     }
-    return SampledTexels(depth, vec4f(select(-normal, normal, front), 0.0));
+    return SampledTexels(depth, vec4f(seen_normal(normal, surface.material, place, depth, front), 0.0));
 }

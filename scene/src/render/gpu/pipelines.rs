@@ -13,6 +13,8 @@ pub(super) const WORKGROUP: u32 = 8;
 pub(super) struct Pipelines {
     /// Beginning of the text of every shader that draws the scene.
     pub geometry_text: String,
+    /// Text of what shades it, which may follow.
+    pub shade_text: String,
     geometry: wgpu::RenderPipeline,
     shading: wgpu::ComputePipeline,
     pub geometry_layout: wgpu::BindGroupLayout,
@@ -22,7 +24,7 @@ pub(super) struct Pipelines {
 
 impl Pipelines {
     pub fn new(device: &wgpu::Device, scene: &Scene) -> Self {
-        let geometry_text = geometry_text(scene);
+        let (geometry_text, shade_text) = (geometry_text(scene), shade_text(scene));
         let geometry_layout = group_layout(device, &[(ShaderStages::VERTEX_FRAGMENT, uniform_binding())]);
         let read = (
             ShaderStages::FRAGMENT,
@@ -42,8 +44,9 @@ impl Pipelines {
         );
         Pipelines {
             geometry: geometry_pipeline(device, [&geometry_layout, &texture_layout], &geometry_text),
-            shading: shading_pipeline(device, &shading_layout),
+            shading: shading_pipeline(device, &shading_layout, &shade_text),
             geometry_text,
+            shade_text,
             geometry_layout,
             texture_layout,
             shading_layout,
@@ -105,6 +108,13 @@ fn geometry_text(scene: &Scene) -> String {
     [&chosen, include_str!("../paint.wgsl"), include_str!("geometry.wgsl")].join("\n")
 }
 
+fn shade_text(scene: &Scene) -> String {
+    let has_environment = scene.environment != [[0.0; 3]; 9];
+    let has_lamps = has_environment || !scene.lamps.is_empty() || !scene.shades.is_empty();
+    let chosen = format!("const HAS_LAMPS: bool = {has_lamps};");
+    [&chosen, include_str!("../shade.wgsl")].join("\n")
+}
+
 fn geometry_pipeline(device: &wgpu::Device, layouts: [&wgpu::BindGroupLayout; 2], text: &str) -> wgpu::RenderPipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("straightline geometry"),
@@ -122,8 +132,8 @@ fn geometry_pipeline(device: &wgpu::Device, layouts: [&wgpu::BindGroupLayout; 2]
     drawn.create_pipeline(device)
 }
 
-fn shading_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::ComputePipeline {
-    let text = concat!(include_str!("../shade.wgsl"), "\n", include_str!("shading.wgsl"));
+fn shading_pipeline(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, shade_text: &str) -> wgpu::ComputePipeline {
+    let text = [shade_text, include_str!("shading.wgsl")].join("\n");
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("straightline shading"),
         source: wgpu::ShaderSource::Wgsl(text.into()),

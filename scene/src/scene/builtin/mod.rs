@@ -46,6 +46,9 @@ pub fn builtin_scene() -> Scene {
             ground: [0.20, 0.17, 0.13],
             haze: 0.0025,
         },
+        environment: Default::default(),
+        lamps: Vec::new(),
+        shades: Vec::new(),
         camera: Camera {
             position: [-6.2, 1.7, 11.3],
             target: [0.75, 3.0, -1.5],

@@ -72,6 +72,9 @@ pub fn load_seen(path: &Path, viewpoint: &Viewpoint) -> Result<Scene, SceneError
             ground: [0.16, 0.14, 0.12],
             haze: 0.0,
         },
+        environment: Default::default(),
+        lamps: Vec::new(),
+        shades: Vec::new(),
         camera: viewpoint.camera(
             |fov| Camera::framing(bounds[0], bounds[1], fov),
             |point| mesh.place.to_scene(point),

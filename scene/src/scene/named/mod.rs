@@ -5,11 +5,15 @@ mod creases;
 mod emissive;
 mod floor;
 mod grooves;
+mod isometric;
 mod posters;
 mod railings;
+mod relief;
 mod sky;
 mod sparkle;
+mod studio;
 mod terrain;
+mod thicket;
 mod tubes;
 mod wires;
 
@@ -54,9 +58,9 @@ pub const NAMES: [(&str, &str); 11] = [
     ),
 ];
 
-/// Scenes whose edges are those of paint and of shadow, which filters of geometry leave as they are unless they know of these.
-/// Studies draw them on request.
-pub const OF_SHADING: [(&str, &str); 2] = [
+/// Scenes that studies draw on request: edges of paint and shadow, which filters of geometry leave as they are unless they know of
+/// these, and what else is hard.
+pub const FURTHER: [(&str, &str); 6] = [
     (
         "posters",
         "dots with hard edges on walls, blocks and ground: paint, which no geometry tells of",
@@ -65,10 +69,23 @@ pub const OF_SHADING: [(&str, &str); 2] = [
         "awning",
         "hard shadows of slats on even ground, walls and posts, which no geometry tells of",
     ),
+    (
+        "studio",
+        "four coloured lamps and their shadows, studs and highlights: a cheap guide knows one light",
+    ),
+    (
+        "relief",
+        "walls and ground with studs that normals alone show, as normal maps do",
+    ),
+    (
+        "thicket",
+        "shrubs and grass of triangles that are a pixel or a few large",
+    ),
+    ("isometric", "the demo's house from above, by a parallel projection"),
 ];
 
 impl Scene {
-    /// The scene of [`NAMES`] or [`OF_SHADING`] that is called `name`. The same each time; one unit is a metre.
+    /// The scene of [`NAMES`] or [`FURTHER`] that is called `name`. The same each time; one unit is a metre.
     ///
     /// # Errors
     ///
@@ -88,6 +105,10 @@ impl Scene {
             "terrain" => Ok(terrain::build_scene()),
             "posters" => Ok(posters::build_scene()),
             "awning" => Ok(awning::build_scene()),
+            "studio" => Ok(studio::build_scene()),
+            "relief" => Ok(relief::build_scene()),
+            "thicket" => Ok(thicket::build_scene()),
+            "isometric" => Ok(isometric::build_scene()),
             _ => Err(SceneError::UnknownName { name: name.to_owned() }),
         }
     }
@@ -110,6 +131,9 @@ fn outdoor_scene(mesh: Mesh, position: Vec3, target: Vec3, fov: f32) -> Scene {
             ground: [0.20, 0.18, 0.15],
             haze: 0.002,
         },
+        environment: Default::default(),
+        lamps: Vec::new(),
+        shades: Vec::new(),
         camera: Camera {
             position: position.into(),
             target: target.into(),
@@ -172,7 +196,7 @@ mod tests {
 
     #[test]
     fn every_name_is_a_scene_that_can_be_drawn_and_is_the_same_each_time() {
-        for (name, purpose) in NAMES.into_iter().chain(OF_SHADING) {
+        for (name, purpose) in NAMES.into_iter().chain(FURTHER) {
             let scene = Scene::from_name(name).expect(name);
             scene.check().unwrap_or_else(|error| panic!("{name}: {error}"));
             assert!(scene == Scene::from_name(name).expect(name), "{name}");

@@ -1,6 +1,5 @@
 // The further passes of ways to antialias a frame. Follows `geometry.wgsl` and `shade.wgsl` in one module.
 
-@group(0) @binding(1) var<uniform> lighting: Lighting;
 @group(0) @binding(2) var normal_depth: texture_2d<f32>;
 @group(0) @binding(3) var color_material: texture_2d<f32>;
 @group(0) @binding(4) var shaded: texture_storage_2d<rgba16float, write>;
@@ -16,8 +15,8 @@ fn auxiliary(surface: Corner, @builtin(front_facing) front: bool) -> Auxiliary {
     if seen(surface).hole {
         discard;
     }
-    let normal = normalize(surface.normal);
-    return Auxiliary(surface.depth, vec4f(select(-normal, normal, front), 0.0));
+    let normal = seen_normal(surface.normal, surface.material, surface.place, surface.depth, front);
+    return Auxiliary(surface.depth, vec4f(normal, 0.0));
 }
 
 // The mean of several evaluations at places of their own within the pixel, the first of them where the sample is. Their
@@ -28,9 +27,7 @@ fn evaluated(surface: Surface, pixel: vec2f) -> vec3f {
     var sum = vec3f(0.0);
     for (var k = 0u; k < frame.evaluations; k++) {
         let within = fract(f32(k) * vec2f(0.7548777, 0.5698403) + 0.5) - 0.5;
-        let x = place.x * lighting.extent.x + within.x * lighting.extent.z;
-        let y = -place.y * lighting.extent.y + within.y * lighting.extent.z;
-        sum += shade(lighting, surface, vec3f(x, y, -1.0));
+        sum += shade(surface, ray_through(place + 2.0 * within / vec2f(frame.size)));
     }
     return sum / f32(frame.evaluations);
 }
@@ -52,8 +49,8 @@ fn forward(surface: Corner, @builtin(front_facing) front: bool) -> @location(0) 
     if paint.hole {
         discard;
     }
-    let normal = normalize(surface.normal);
-    let nearest = Surface(select(-normal, normal, front), surface.depth, paint.color, f32(surface.material));
+    let normal = seen_normal(surface.normal, surface.material, surface.place, surface.depth, front);
+    let nearest = Surface(normal, surface.depth, paint.color, f32(surface.material));
     return vec4f(evaluated(nearest, surface.clip.xy), 1.0);
 }
 

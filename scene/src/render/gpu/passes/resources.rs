@@ -54,7 +54,7 @@ pub(super) fn create_passes(renderer: GpuRenderer, scene: &Scene, evaluations: u
     let (device, size) = (&renderer.device, renderer.size);
     let text = [
         &renderer.pipelines.geometry_text,
-        include_str!("../../shade.wgsl"),
+        &renderer.pipelines.shade_text,
         include_str!("passes.wgsl"),
     ];
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -1,7 +1,9 @@
 //! Both renderers draw what geometry says, and the same.
 
+mod parallel;
+
 use super::*;
-use crate::scene::{Camera, Material, NAMES, SKY_DEPTH, Scene, Vertex, builtin_scene};
+use crate::scene::{Camera, FURTHER, Material, NAMES, SKY_DEPTH, Scene, Vertex, builtin_scene};
 use glam::{IVec2, ivec2, uvec2, vec2};
 
 fn gpu_renderer(scene: &Scene, size: UVec2) -> Result<GpuRenderer, RenderError> {
@@ -151,7 +153,7 @@ fn the_cpu_and_the_gpu_draw_the_same() {
 #[test]
 fn both_draw_every_scene_alike() {
     let size = uvec2(240, 135);
-    for (name, _) in NAMES {
+    for (name, _) in NAMES.into_iter().chain(FURTHER) {
         let [cpu, gpu] = both_renderers(&Scene::from_name(name).expect(name), size);
         let ((z0, n0), (z1, n1)) = (
             cpu.draw_geometry(Vec2::ZERO).expect("geometry"),
@@ -332,7 +334,7 @@ fn alpha_makes_holes() {
 fn a_multisampled_pass_is_four_shifted_ones() {
     let size = uvec2(320, 180);
     let latin4 = [(-2.0, -6.0), (6.0, -2.0), (-6.0, 2.0), (2.0, 6.0)];
-    for name in ["roof", "railings"] {
+    for name in ["roof", "railings", "relief"] {
         let renderer = gpu_renderer(&Scene::from_name(name).expect(name), size).expect("a renderer");
         let (depth, normal) = renderer.draw_multisampled().and_then(|g| g.read()).expect("geometry");
         assert_eq!((depth.layers().len(), normal.layers().len()), (4, 4));
