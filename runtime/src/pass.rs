@@ -78,6 +78,11 @@ impl Pass {
         self.plan.inputs.iter().map(|input| input.name.as_ref())
     }
 
+    /// Returns whether the shader was generated for regions, so that a rectangle can be bound ([`BindOptions::region`](crate::BindOptions::region)).
+    pub fn filters_regions(&self) -> bool {
+        self.plan.region.is_some()
+    }
+
     /// The format that the target must have; of several, the first one. Panics if the kernel has none.
     pub fn target_format(&self) -> TextureFormat {
         self.formats[0]

@@ -2,7 +2,7 @@
 
 use super::{Bench, Clock, ExecuteError, Job, Timed};
 use std::time::Duration;
-use straightline_runtime::{Bound, Timer};
+use straightline_runtime::{Bound, Region, Timer};
 use wgpu::CommandEncoder;
 
 /// Runs of a pass in one submission, at most.
@@ -67,7 +67,13 @@ impl Bench {
         };
         let views: Vec<_> = job.pass.targets().map(|(name, format)| (name, view(format))).collect();
         let named: Vec<_> = views.iter().map(|(name, view)| (*name, view)).collect();
-        Ok(job.uploaded.bind(job.pass, &named[..])?)
+        Ok(match job.pass.filters_regions() {
+            // From the upper left pixel on.
+            true => job
+                .uploaded
+                .bind_region(job.pass, &named[..], Region::at([0, 0], job.size.to_array()))?,
+            false => job.uploaded.bind(job.pass, &named[..])?,
+        })
     }
 
     /// Makes work of `record`, to be timed with others: up to `passes` passes, each with a span of the timer around it where

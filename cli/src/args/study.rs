@@ -156,9 +156,15 @@ pub struct ErrorArgs {
     /// supersampling are also tried after them
     #[arg(long)]
     pub post: bool,
-    /// Built-in scene (see `scenes`); may be given several times; by default all of them
+    /// Restrict to 1x, the presets of SRAA, and supersampling
+    #[arg(long)]
+    pub presets: bool,
+    /// Built-in scene (see `scenes`); may be given several times; by default those that are not drawn on request
     #[arg(long, value_name = "NAME")]
     pub scene: Vec<String>,
+    /// All built-in scenes, also those that are drawn on request
+    #[arg(long, conflicts_with = "scene")]
+    pub wide: bool,
     /// Model to render: .gltf, .glb or .obj; may be given several times
     #[arg(long, value_name = "FILE")]
     pub mesh: Vec<PathBuf>,

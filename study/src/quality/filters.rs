@@ -40,8 +40,50 @@ enum Runner {
     Merged(Box<Shader>),
 }
 
+/// What a kernel is dispatched for.
+#[derive(Clone, Copy)]
+enum Area {
+    Frame,
+    /// A pixel a tile of 16×16.
+    Tiles,
+    /// A pixel a row of tiles, from sums of tiles.
+    Rows,
+    /// One pixel, from sums of rows of tiles.
+    Whole,
+}
+
+impl Area {
+    /// Returns the size of a target for a frame of `size`.
+    fn target(self, size: UVec2) -> UVec2 {
+        let tiles = size.map(|side| side.div_ceil(16));
+        match self {
+            Area::Frame => size,
+            Area::Tiles => tiles,
+            Area::Rows => UVec2::new(1, tiles.y),
+            Area::Whole => UVec2::ONE,
+        }
+    }
+
+    /// Returns the size of the sums that the kernel reads, if it reads sums.
+    fn sums(self, size: UVec2) -> Option<UVec2> {
+        match self {
+            Area::Frame | Area::Tiles => None,
+            Area::Rows => Some(Area::Tiles.target(size)),
+            Area::Whole => Some(Area::Rows.target(size)),
+        }
+    }
+}
+
+/// Kernels that scale a guide, one after the other.
+const FIT: [(&str, Area); 3] = [
+    ("sraa_fit_sums", Area::Tiles),
+    ("sraa_fit_rows", Area::Rows),
+    ("sraa_fit", Area::Whole),
+];
+
 struct Shader {
     compiled: Compiled,
+    area: Area,
     pass: Pass,
     manifest: Manifest,
 }
@@ -51,6 +93,8 @@ pub struct Filters<'a> {
     bench: &'a Bench,
     methods: &'a [Method],
     runners: Vec<Runner>,
+    /// Of each method, once a shot has been uploaded.
+    bytes: Option<Vec<u64>>,
 }
 
 impl<'a> Filters<'a> {
@@ -71,6 +115,7 @@ impl<'a> Filters<'a> {
             bench,
             methods,
             runners,
+            bytes: None,
         })
     }
 
@@ -97,10 +142,17 @@ impl<'a> Filters<'a> {
         }
     }
 
-    /// Bytes that each method reads and writes of a shot, as they lie on the device.
+    /// Bytes that each method reads and writes of a shot, as they lie on the device. All shots have one size, so the first tells.
     ///
     /// Of what is no filter here: its samples' geometry as SRAA would read it and their colours, and the target.
-    pub fn traffic_bytes(&self, shot: &Shot) -> Result<Vec<u64>, QualityError> {
+    pub fn traffic_bytes(&mut self, shot: &Shot) -> Result<Vec<u64>, QualityError> {
+        if self.bytes.is_none() {
+            self.bytes = Some(self.count_bytes(shot)?);
+        }
+        Ok(self.bytes.clone().unwrap_or_default())
+    }
+
+    fn count_bytes(&self, shot: &Shot) -> Result<Vec<u64>, QualityError> {
         let size = shot.any_capture()?.size;
         let pixels = u64::from(size.x) * u64::from(size.y);
         let mut all = Vec::new();
@@ -231,8 +283,13 @@ fn make_runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Qu
         shading => {
             let mut shaders = Vec::new();
             if shading == ShadingSample::Placed {
-                let placing = method.placed_by().instead_of(method.options());
+                let placing = method.placing_options()?;
                 shaders.push(Shader::new(bench, &Kernel::builtin("sraa_place")?, &placing)?);
+            }
+            if method.fits_guide() {
+                for (name, area) in FIT {
+                    shaders.push(Shader::of_area(bench, &Kernel::builtin(name)?, method.options(), area)?);
+                }
             }
             if method.reads_guide() {
                 for name in ["sraa_residual", "sraa_guide"] {
@@ -285,11 +342,18 @@ fn merge_mlaa(filtered: &Frame<Vec4>, capture: &Capture) -> Frame<Vec4> {
 
 impl Shader {
     fn new(bench: &Bench, kernel: &Kernel, options: &[OptionText]) -> Result<Shader, QualityError> {
+        Shader::of_area(bench, kernel, options, Area::Frame)
+    }
+
+    fn of_area(bench: &Bench, kernel: &Kernel, options: &[OptionText], area: Area) -> Result<Shader, QualityError> {
         let settings = Settings::new().set_all(options.to_vec());
         let compiled = kernel.compile(&settings)?;
-        let (pass, manifest) = bench.compile_pass(&compiled, Stage::Compute)?;
+        // A shader for the whole frame takes its frames to be as large as its targets.
+        let emitted = bench.emit_options(Stage::Compute).region(matches!(area, Area::Tiles));
+        let (pass, manifest) = bench.emit_pass(&compiled, &emitted)?;
         Ok(Shader {
             compiled,
+            area,
             pass,
             manifest,
         })
@@ -315,7 +379,8 @@ impl Shader {
 
     fn upload_inputs(&self, bench: &Bench, method: &Method, shot: &Shot) -> Result<(Inputs, Uploaded), QualityError> {
         let capture = shot.capture_for(method)?;
-        let inputs = match method.kind {
+        let mut inputs = match method.kind {
+            _ if self.area.sums(capture.size).is_some() => Inputs::new(capture.size),
             MethodKind::Edge(_) => one_a_pixel(capture, &self.compiled)?,
             MethodKind::Fxaa(transfer) => of_the_picture(capture, transfer),
             MethodKind::Own => gbuffer_of(capture, &self.manifest)?,
@@ -324,6 +389,12 @@ impl Shader {
                 Some(extra) => extra.sraa_inputs(capture, &self.compiled.options)?,
             },
         };
+        if let Some(size) = self.area.sums(capture.size) {
+            // Of a time, not of a picture: what the sums are does not matter.
+            let sums = Frame::new(size, vec![Vec4::ONE; (size.x * size.y) as usize]);
+            inputs = inputs.with_image("both", sums.clone()).with_image("own", sums);
+        }
+        inputs.size = self.area.target(capture.size);
         let uploaded = bench.upload(&self.manifest, &inputs)?;
         Ok((inputs, uploaded))
     }

@@ -9,6 +9,7 @@ use straightline_kernels::{OptionText, OptionValues};
 use straightline_scene::capture::{Capture, ShadingSample};
 use straightline_scene::gbuffer;
 use straightline_scene::render::PlacedBy;
+use straightline_scene::scene::Camera;
 
 /// Kind of a method, beyond its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +65,8 @@ pub struct Method {
     pub last: bool,
     /// True if the difference to supersampling at the method's samples is accounted for.
     pub explained: bool,
+    /// Scene units from the upper to the lower edge of pictures of a camera with parallel rays, if it is for one.
+    parallel_height: Option<f32>,
 }
 
 impl Method {
@@ -79,6 +82,7 @@ impl Method {
             panned: false,
             last: false,
             explained: false,
+            parallel_height: None,
         };
         method.with_options(options.iter().map(own).collect())
     }
@@ -155,14 +159,41 @@ impl Method {
 
     /// Restricts the method to the capture's own samples.
     pub fn for_capture(&self, capture: &Capture) -> Method {
-        let given = |name: &str| self.options.iter().any(|(own, _)| own == name);
         if self.kind != MethodKind::Sraa {
             return self.clone();
         }
+        let own = capture
+            .camera
+            .map_or_else(|| self.clone(), |camera| self.for_camera(&camera));
+        let given = |name: &str| own.options.iter().any(|(own, _)| own == name);
         let sampled = gbuffer::sampled_at(capture).into_iter();
-        let sampled = sampled.filter(|(name, _)| !given(name));
-        self.clone()
-            .with_options(sampled.chain(self.options.iter().cloned()).collect())
+        let options = sampled
+            .filter(|(name, _)| !given(name))
+            .chain(own.options.iter().cloned());
+        let options = options.collect();
+        own.with_options(options)
+    }
+
+    /// Returns the method for a camera: the options of SRAA depend on its projection.
+    pub fn for_camera(&self, camera: &Camera) -> Method {
+        match (self.kind, camera.parallel_height) {
+            (MethodKind::Sraa | MethodKind::Merged, Some(height)) => Method {
+                parallel_height: Some(height),
+                ..self
+                    .clone()
+                    .with_options(gbuffer::in_parallel(&self.options, &self.values, height))
+            },
+            _ => self.clone(),
+        }
+    }
+
+    /// Returns the options of the kernel `sraa_place` that goes with the method.
+    pub fn placing_options(&self) -> Result<Vec<OptionText>, Errors> {
+        let options = self.placed_by().instead_of(&self.options);
+        Ok(match self.parallel_height {
+            Some(height) => gbuffer::in_parallel(&options, &self.parse_options(&options)?, height),
+            None => options,
+        })
     }
 
     fn with_gap_analysis(self) -> Method {
@@ -245,6 +276,11 @@ impl Method {
     /// Returns whether the method reads a guide at every geometry sample.
     pub fn reads_guide(&self) -> bool {
         self.values.choice("guide") == Some("add")
+    }
+
+    /// Returns whether a guide's scale is fitted for the method.
+    pub fn fits_guide(&self) -> bool {
+        self.reads_guide() && self.values.flag("fitted") == Some(true)
     }
 
     /// Returns whether some pixels are shaded once more for the method.
@@ -408,6 +444,15 @@ fn extension_variants() -> Vec<Method> {
     all
 }
 
+/// Returns the names of methods that show what the presets of SRAA are worth: no antialiasing, the presets, and supersampling.
+pub fn preset_names() -> Vec<String> {
+    let around = ["1x", "SRAA 4", "SRAA 16", "4x", "16x"].map(str::to_owned);
+    around
+        .into_iter()
+        .chain(presets().into_iter().map(|method| method.name))
+        .collect()
+}
+
 /// The presets of the filter.
 fn presets() -> Vec<Method> {
     let mut all = Vec::new();
@@ -519,7 +564,11 @@ pub fn methods_of(capture: &Capture) -> (Vec<Method>, Vec<(String, String)>) {
     };
     let samples = capture.samples.len();
     let sraa = |what: &str, options: &[(&str, &str)]| {
-        Method::new(&format!("SRAA {samples}{what}"), MethodKind::Sraa, &[]).with_options(with(options))
+        let method = Method::new(&format!("SRAA {samples}{what}"), MethodKind::Sraa, &[]).with_options(with(options));
+        match &capture.camera {
+            Some(camera) => method.for_camera(camera),
+            None => method,
+        }
     };
     let normals = capture.normal.is_some();
     let mut all = vec![Method::new("1x", MethodKind::Plain, &[]).with_picture()];

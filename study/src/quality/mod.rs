@@ -27,22 +27,24 @@ use crate::record::SceneErrors;
 use classes::{Classes, varies_around, varies_within};
 use filters::Filters;
 use glam::{UVec2, Vec2, Vec4};
+use rayon::prelude::*;
 use scores::{measure_gaps, score_picture, share_of_gap};
 use shot::render_supersampled;
-use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use straightline_bench::execute::{Bench, Times};
 use straightline_kernels::prelude::Frame;
 use straightline_scene::capture::Capture;
 use straightline_scene::picture;
 use straightline_scene::render::{Extra, GpuRenderer};
-use straightline_scene::scene::Scene;
+use straightline_scene::scene::{Camera, Scene};
 
 pub use classes::STEP;
 pub use error::QualityError;
 pub use figures::{FIGURES, Figure, Made, Pane};
 pub use film::{Film, REFERENCE, Shooting, film_scene};
 pub use losses::list_losses;
-pub use methods::{Method, MethodKind, OwnError, list_methods, methods_of};
+pub use methods::{Method, MethodKind, OwnError, list_methods, methods_of, preset_names};
 pub use motion::{BEFORE, Sequence, in_motion, methods_in_motion};
 pub use shot::Shot;
 pub use surfaces::{Point, Surfaces};
@@ -95,8 +97,8 @@ pub struct Setup {
     pub own: Vec<Method>,
     /// Frames of the pan; 0 for none.
     pub pan_frames: u32,
-    /// Number of scenes with a pan, from the first.
-    pub pan_scenes: usize,
+    /// Number of scenes with a pan and times, from the first.
+    pub timed_scenes: usize,
     /// `true` if bloom and tone mapping are applied. Methods that read geometry or samples run before them, filters of the
     /// displayed picture after; some of the former also run after.
     pub post_processed: bool,
@@ -153,14 +155,26 @@ fn study_sources(
         listed.extend(post::the_other_order());
     }
     progress.begin("speed against error", count_steps(&sources, &listed, setup));
-    let mut filters = match sources.iter().any(|source| matches!(source, Source::Scene { .. })) {
-        true => Some(Filters::new(bench, &listed, setup.size, progress)?),
-        false => None,
-    };
+    let drawn = sources.iter().filter_map(|source| match source {
+        Source::Scene { scene, .. } => Some(scene.camera),
+        Source::Capture { .. } => None,
+    });
+    let of_camera =
+        |camera: &Camera| -> Vec<Method> { listed.iter().map(|method| method.for_camera(camera)).collect() };
+    let methods: BTreeMap<_, _> = drawn
+        .map(|camera| (projection_of(&camera), of_camera(&camera)))
+        .collect();
+    let mut compiled = BTreeMap::new();
     let mut panned = 0;
     for source in sources {
-        match (source, &mut filters) {
-            (Source::Scene { name, purpose, scene }, Some(filters)) => {
+        match source {
+            Source::Scene { name, purpose, scene } => {
+                let projection = projection_of(&scene.camera);
+                let listed = &methods[&projection];
+                let filters = match compiled.entry(projection) {
+                    Entry::Occupied(filters) => filters.into_mut(),
+                    Entry::Vacant(place) => place.insert(Filters::new(bench, listed, setup.size, progress)?),
+                };
                 let renderer = GpuRenderer::new(bench.device(), bench.queue(), &scene, setup.size)?;
                 let shot = Shot::draw(&renderer, &listed.iter().collect::<Vec<_>>(), progress)?;
                 let reference = render_supersampled(&renderer, SIDE, Vec2::ZERO, progress)?;
@@ -171,25 +185,26 @@ fn study_sources(
                     setup,
                     made,
                 };
-                let mut errors = wanted.measure_errors(&listed, filters, &shot, &reference, progress)?;
-                if setup.pan_frames > 1 && panned < setup.pan_scenes {
+                let mut errors = wanted.measure_errors(listed, filters, &shot, &reference, progress)?;
+                if setup.pan_frames > 1 && panned < setup.timed_scenes {
                     panned += 1;
-                    let found = pan::measure_pan(&renderer, &listed, filters, setup.pan_frames, progress)?;
+                    let found = pan::measure_pan(&renderer, listed, filters, setup.pan_frames, progress)?;
                     for (method, temporal) in errors.methods.iter_mut().zip(found) {
                         method.temporal = temporal;
                     }
                 }
-                let times = time_methods(filters, &shot, setup, progress)?;
-                outcome.timed_on.push(errors.scene.clone());
-                put_times(&mut errors, &times);
+                if outcome.timed_on.len() < setup.timed_scenes {
+                    let times = time_methods(filters, &shot, setup, progress)?;
+                    outcome.timed_on.push(errors.scene.clone());
+                    put_times(&mut errors, &times);
+                }
                 outcome.scenes.push(errors);
             }
-            (Source::Capture { name, capture }, _) => {
+            Source::Capture { name, capture } => {
                 let errors = of_capture(bench, name, *capture, setup, &mut outcome.pictures, progress)?;
                 outcome.timed_on.push(errors.scene.clone());
                 outcome.scenes.push(errors);
             }
-            (Source::Scene { .. }, None) => {}
         }
     }
     Ok(())
@@ -226,16 +241,24 @@ fn of_capture(
     Ok(errors)
 }
 
+/// What the options of methods depend on, in a form that can be compared.
+fn projection_of(camera: &Camera) -> Option<u32> {
+    camera.parallel_height.map(f32::to_bits)
+}
+
 /// Counts the steps of `progress`.
 fn count_steps(sources: &[Source], listed: &[Method], setup: &Setup) -> usize {
-    let drawn = sources.iter().filter(|s| matches!(s, Source::Scene { .. })).count();
+    let projections = sources.iter().filter_map(|source| match source {
+        Source::Scene { scene, .. } => Some(projection_of(&scene.camera)),
+        Source::Capture { .. } => None,
+    });
+    let (drawn, projections) = (projections.clone().count(), projections.collect::<BTreeSet<_>>());
     let timing = setup.rounds as usize;
-    let mut steps = 0;
+    let mut steps = projections.len() * listed.len();
     if drawn > 0 {
-        steps += listed.len();
-        steps += drawn * (SIDE as usize + listed.len() + timing);
+        steps += drawn * (SIDE as usize + listed.len()) + drawn.min(setup.timed_scenes) * timing;
         if setup.pan_frames > 1 {
-            steps += drawn.min(setup.pan_scenes) * setup.pan_frames as usize * (pan::SIDE as usize + 1);
+            steps += drawn.min(setup.timed_scenes) * setup.pan_frames as usize * (pan::SIDE as usize + 1);
         }
     }
     for source in sources {
@@ -245,6 +268,9 @@ fn count_steps(sources: &[Source], listed: &[Method], setup: &Setup) -> usize {
     }
     steps
 }
+
+/// Methods whose pictures are in memory at once, to be scored on all processors.
+const AT_ONCE: usize = 16;
 
 /// Request to study one source.
 struct Wanted<'a> {
@@ -272,8 +298,9 @@ impl Wanted<'_> {
         });
         let late = post_processed.then(|| shot.post_process());
         let bytes = filters.traffic_bytes(shot)?;
+        let shown = self.encode_picture(reference)?;
         let mut errors = SceneErrors {
-            reference: self.keep_picture("reference", reference)?,
+            reference: self.keep_picture("reference", shown),
             shares: classes.shares(),
             methods: Vec::new(),
             absent: Vec::new(),
@@ -282,26 +309,37 @@ impl Wanted<'_> {
             purpose: self.purpose.clone(),
         };
         let mut reconstructed = Vec::new();
-        for (k, method) in listed.iter().enumerate() {
-            check_stopped(progress)?;
-            let made = match &late {
-                None => filters.filter_shot(k, shot)?,
-                Some(late) if method.is_last() => filters.filter_shot(k, late)?,
-                Some(_) => post::post_process(&filters.filter_shot(k, shot)?),
-            };
-            let made = picture::at_eight_bits(&made);
-            let picture = match method.pictured {
-                true => self.keep_picture(&method.file_stem(), &made)?,
-                false => None,
-            };
-            let mut scores = score_picture(method, &made, reference, &classes);
-            (scores.bytes, scores.picture) = (bytes[k], picture);
-            scores.extra = shot.extra_for(method).map(Extra::share);
-            errors.methods.push(scores);
-            if method.explained {
-                reconstructed.push(made);
+        for (group, methods) in listed.chunks(AT_ONCE).enumerate() {
+            let mut made = Vec::new();
+            for (k, method) in methods.iter().enumerate() {
+                check_stopped(progress)?;
+                let k = group * AT_ONCE + k;
+                made.push(picture::at_eight_bits(&match &late {
+                    None => filters.filter_shot(k, shot)?,
+                    Some(late) if method.is_last() => filters.filter_shot(k, late)?,
+                    Some(_) => post::post_process(&filters.filter_shot(k, shot)?),
+                }));
+                progress.step();
             }
-            progress.step();
+            let scored = methods.par_iter().zip(&made).map(|(method, made)| {
+                let png = if method.pictured {
+                    self.encode_picture(made)?
+                } else {
+                    None
+                };
+                Ok((score_picture(method, made, reference, &classes), png))
+            });
+            let scored: Vec<_> = scored.collect::<Result<_, QualityError>>()?;
+            for ((method, made), (mut scores, png)) in methods.iter().zip(made).zip(scored) {
+                scores.picture = self.keep_picture(&method.file_stem(), png);
+                errors.methods.push(scores);
+                if method.explained {
+                    reconstructed.push(made);
+                }
+            }
+        }
+        for ((scores, method), bytes) in errors.methods.iter_mut().zip(listed).zip(bytes) {
+            (scores.bytes, scores.extra) = (bytes, shot.extra_for(method).map(Extra::share));
         }
         share_of_gap(&mut errors.methods);
         if let [four, sixteen] = &reconstructed[..]
@@ -313,14 +351,19 @@ impl Wanted<'_> {
         Ok(errors)
     }
 
+    /// Returns a picture as a PNG file, if pictures are requested.
+    fn encode_picture(&self, frame: &Frame<Vec4>) -> Result<Option<Vec<u8>>, QualityError> {
+        Ok(match self.setup.pictures {
+            true => Some(picture::png_bytes(frame)?),
+            false => None,
+        })
+    }
+
     /// Stores a picture, and returns its path beside the record.
-    fn keep_picture(&mut self, stem: &str, frame: &Frame<Vec4>) -> Result<Option<String>, QualityError> {
-        if !self.setup.pictures {
-            return Ok(None);
-        }
+    fn keep_picture(&mut self, stem: &str, png: Option<Vec<u8>>) -> Option<String> {
         let path = format!("pictures/{}/{stem}.png", methods::to_file_stem(&self.name));
-        self.made.insert(path.clone(), picture::png_bytes(frame)?);
-        Ok(Some(path))
+        self.made.insert(path.clone(), png?);
+        Some(path)
     }
 }
 

@@ -90,7 +90,7 @@ fn setup(pictures: bool) -> Setup {
         quick: true,
         pan_frames: 2,
         post_processed: false,
-        pan_scenes: 1,
+        timed_scenes: 1,
         pictures,
         only: Vec::new(),
         own: Vec::new(),

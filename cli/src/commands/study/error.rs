@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use straightline_codegen::files;
 use straightline_scene::capture::Capture;
-use straightline_scene::scene::{self, NAMES, OF_SHADING, Scene};
+use straightline_scene::scene::{self, FURTHER, NAMES, Scene};
 use straightline_study::quality::{self, Method, OwnError, QualityError, Setup, Source};
 use straightline_study::record::{Gap, QualityRecord, Record, SceneErrors};
 
@@ -33,9 +33,12 @@ pub fn compare_methods(common: &CommonArgs, args: &ErrorArgs, progress: &mut Pro
             _ => FRAMES,
         },
         post_processed: args.post,
-        pan_scenes: if common.quick { 1 } else { usize::MAX },
+        timed_scenes: if common.quick { 1 } else { usize::MAX },
         pictures: true,
-        only: args.only.clone(),
+        only: match args.presets {
+            true => [quality::preset_names(), args.only.clone()].concat(),
+            false => args.only.clone(),
+        },
         own,
     };
     let mut circumstances = run_circumstances(common, &gpu);
@@ -151,8 +154,9 @@ fn load_sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
             capture: Box::new(capture),
         });
     }
-    if sources.is_empty() {
-        for (name, _) in NAMES {
+    if args.wide || sources.is_empty() {
+        let further = if args.wide { &FURTHER[..] } else { &[] };
+        for (name, _) in NAMES.iter().chain(further) {
             sources.push(scene_source(name, Scene::from_name(name).map_err(Failure::from_error)?));
         }
     }
@@ -160,7 +164,7 @@ fn load_sources(args: &ErrorArgs) -> Result<Vec<Source>, Failure> {
 }
 
 fn scene_source(name: &str, scene: Scene) -> Source {
-    let purpose = NAMES.iter().chain(&OF_SHADING).find(|(known, _)| *known == name);
+    let purpose = NAMES.iter().chain(&FURTHER).find(|(known, _)| *known == name);
     Source::Scene {
         name: name.to_owned(),
         purpose: purpose.map_or(String::new(), |(_, purpose)| (*purpose).to_owned()),
