@@ -5,47 +5,47 @@ use straightline_isa::Figures;
 use straightline_study::record::{FormKind, IsaRecord, KernelForms, LoopsRecord, SpirvPath};
 use straightline_table::{Cell, Table};
 
-/// Speedups over the looped form of each kernel of `rows`, and of those that `squares` has too in squares.
-pub fn workgroups(squares: &LoopsRecord, rows: &LoopsRecord) -> Table {
-    let in_squares = |kernel: &KernelForms| squares.kernels.iter().find(|other| other.kernel == kernel.kernel);
-    let speedup = |kernel: Option<&KernelForms>, kind: FormKind| {
-        let form = kernel?.form(kind)?;
-        Some(format!("{:.2}", form.ratio.median))
-    };
-    Table::of(&rows.kernels)
+/// Time of each kernel's looped form, and the speedups of the others over it.
+pub fn forms(record: &LoopsRecord) -> Table {
+    let forms = [
+        ("unbounded", FormKind::LoopedUnchecked),
+        ("hand-optimised", FormKind::LoopedByHand),
+        ("both", FormKind::LoopedByHandUnchecked),
+        ("**unrolled**", FormKind::Full),
+        ("2×2 pixels", FormKind::FullBlock),
+        ("shared by workgroups", FormKind::FullTile),
+        ("f16", FormKind::FullHalf),
+        ("floor", FormKind::Floor),
+    ];
+    Table::of(&record.kernels)
         .column("kernel", |kernel| &kernel.kernel)
         .column("looped", |kernel| {
             Some(in_ms(kernel.form(FormKind::Looped)?.time.median_ms, 1) + " ms")
         })
         .columns(
-            [
-                ("unbounded", FormKind::LoopedUnchecked),
-                ("hand-optimised", FormKind::LoopedByHand),
-                ("both", FormKind::LoopedByHandUnchecked),
-                ("unrolled", FormKind::Full),
-            ],
+            forms,
             |(title, _)| *title,
-            |kernel, (_, kind)| speedup(Some(kernel), *kind),
-        )
-        .columns(
-            [
-                ("**unrolled**, 16x16", FormKind::Full),
-                ("2×2 pixels, 16x16", FormKind::FullBlock),
-            ],
-            |(title, _)| *title,
-            |kernel, (_, kind)| speedup(in_squares(kernel), *kind),
-        )
-        .columns(
-            [
-                ("shared by workgroups", FormKind::FullTile),
-                ("f16", FormKind::FullHalf),
-            ],
-            |(title, _)| *title,
-            |kernel, (_, kind)| speedup(Some(kernel), *kind),
+            |kernel, (_, kind)| Some(format!("{:.2}", kernel.form(*kind)?.ratio.median)),
         )
         .column("off f64 by", |kernel| {
             Some(Cell::scientific(kernel.form(FormKind::Full)?.difference_999?, 0))
         })
+        .finish()
+}
+
+/// Unrolled kernels in workgroups that are rows, and in squares: speedups over the looped form, of the kernels that both have.
+pub fn workgroups(squares: &LoopsRecord, rows: &LoopsRecord) -> Table {
+    let speedup = |kernel: &KernelForms, kind| Some(format!("{:.2}", kernel.form(kind)?.ratio.median));
+    let both = squares.kernels.iter().filter_map(|square| {
+        let row = rows.kernels.iter().find(|row| row.kernel == square.kernel)?;
+        Some((square, row))
+    });
+    Table::of(both)
+        .column("kernel", |(square, _)| &square.kernel)
+        .column("unrolled, 256x1", |(_, row)| speedup(row, FormKind::Full))
+        .column("16x16", |(square, _)| speedup(square, FormKind::Full))
+        .column("2×2 pixels, 256x1", |(_, row)| speedup(row, FormKind::FullBlock))
+        .column("16x16", |(square, _)| speedup(square, FormKind::FullBlock))
         .finish()
 }
 

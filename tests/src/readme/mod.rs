@@ -78,8 +78,9 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "scenes" => Ok(quality::scenes(&read(files, 0)?)),
         "planes" => Ok(planes::scenes(&read(files, 0)?)),
         "even" => Ok(planes::even(&read(files, 0)?)),
-        "presets" => presets::presets(&read(files, 0)?),
+        "presets" => presets::presets(&read(files, 0)?, &read(files, 1)?),
         "guide" => Ok(presets::scenes(&read(files, 0)?)),
+        "guide-sizes" => presets::sizes(&read_all(files)?),
         "guide-goals" => presets::goals(&read(files, 0)?),
         "demodulated" => Ok(quality::demodulated(&read(files, 0)?)),
         "motion" => Ok(motion::methods(&read(files, 0)?)),
@@ -94,6 +95,7 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "fast" => Ok(fast::mathematics(&read(files, 0)?, &read(files, 1)?)),
         "goals" => goals::table(files),
         "reached" => reached::table(&read(files, 0)?, &read(files, 1)?),
+        "forms" => Ok(gpu::forms(&read(files, 0)?)),
         "workgroups" => Ok(gpu::workgroups(&read(files, 0)?, &read(files, 1)?)),
         "registers" => Ok(gpu::registers(&read(files, 0)?)),
         "alive" => alive::registers(&read(files, 0)?),
@@ -107,7 +109,7 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "crates" => crates::needs(files),
         "sweep" => sweep::factors(&read(files, 0)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, workgroups, registers, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, guide-sizes, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, forms, workgroups, registers, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

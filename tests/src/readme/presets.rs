@@ -25,12 +25,12 @@ fn method(preset: &str, samples: &str) -> String {
     }
 }
 
-/// Every preset: what it needs, its distance below supersampling, its time and its memory.
-pub fn presets(record: &QualityRecord) -> Result<Table, String> {
+/// Every preset: what it needs, its distance below supersampling by `record`, its time and its memory by `timed`.
+pub fn presets(record: &QualityRecord, timed: &QualityRecord) -> Result<Table, String> {
     let below = PRESETS.map(|(preset, _)| ["4", "16"].map(|samples| below(record, preset, samples)));
     let mean_of = |preset: &str, samples: &str, figure: fn(&MethodErrors) -> Option<f64>| {
         let of = |scene| figure(found(scene, &method(preset, samples))?);
-        let all: Vec<f64> = record.scenes.iter().filter_map(of).collect();
+        let all: Vec<f64> = timed.scenes.iter().filter_map(of).collect();
         Cell::fixed(mean(&all), 1)
     };
     let mut rows = Vec::new();
@@ -103,6 +103,41 @@ pub fn goals(record: &QualityRecord) -> Result<Table, String> {
         }
     }
     Ok(goals_table(rows))
+}
+
+/// Records of several sizes: the guide below supersampling, and the least gain of presets over the paper's filter.
+pub fn sizes(records: &[QualityRecord]) -> Result<Table, String> {
+    let mut rows = Vec::new();
+    for record in records {
+        let [width, height] = record.circumstances.size;
+        let mut cells = Vec::new();
+        for samples in ["4", "16"] {
+            let (guided, paper) = (below(record, "guided", samples)?, below(record, "paper", samples)?);
+            cells.push(format!("{:.2} ({:.2})", mean(&guided), most(&guided)));
+            for preset in ["edges", "full"] {
+                let own = below(record, preset, samples)?;
+                let gains = paper.iter().zip(&own).map(|(paper, own)| paper - own);
+                cells.push(format!("{:+.2}", gains.fold(f64::INFINITY, f64::min)));
+            }
+        }
+        rows.push((format!("{width}×{height}"), cells));
+    }
+    let titles = [
+        "guided below 4×, mean (worst), dB",
+        "`edges` above `paper`, worst",
+        "`full`",
+        "guided below 16×",
+        "`edges` above `paper`",
+        "`full`, 16",
+    ];
+    Ok(Table::of(&rows)
+        .column("size", |(size, _)| size)
+        .columns(
+            titles.iter().enumerate(),
+            |(_, title)| **title,
+            |(_, cells), (k, _)| Some(cells[*k].clone()),
+        )
+        .finish())
 }
 
 /// Distance of a preset below supersampling with as many samples, scene by scene.
