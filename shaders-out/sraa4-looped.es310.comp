@@ -49,11 +49,10 @@ void main() {
         float distances[9] = float[9](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
-            // position of tap `tap` of this frame (kernels/src/sraa/history.rs:70)
+            // kernels/src/sraa/mod.rs:285
             ivec2 tap_pixel = ivec2(tap % 3 - 1, tap / 3 - 1);
             vec2 away = vec2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                // mean of the geometry samples (kernels/src/sraa/mod.rs:131)
                 float d;
                 if (all(bvec2(is_equal, all(equal(ivec2(0), tap_pixel))))) {
                     d = 0.0;

@@ -47,11 +47,10 @@ void sraa(uint3 id : SV_DispatchThreadID) {
         float distances[9] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
         float nearest = 16.0;
         for (int tap = 0; tap < 9; tap++) {
-            // position of tap `tap` of this frame (kernels/src/sraa/history.rs:70)
+            // kernels/src/sraa/mod.rs:285
             int2 tap_pixel = int2(tap % 3 - 1, tap / 3 - 1);
             float2 away = float2(tap_pixel) - place_at;
             if (max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6) {
-                // mean of the geometry samples (kernels/src/sraa/mod.rs:131)
                 float d;
                 if (all(bool2(is_equal, all(int2(0, 0) == tap_pixel)))) {
                     d = 0.0;

@@ -43,11 +43,10 @@ fn sraa(@builtin(global_invocation_id) id: vec3u) {
         var distances = array<f32, 9>(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         var nearest = 16.0;
         for (var tap = 0; tap < 9; tap++) {
-            // position of tap `tap` of this frame (kernels/src/sraa/history.rs:70)
+            // kernels/src/sraa/mod.rs:285
             let tap_pixel = vec2i(tap % 3 - 1, tap / 3 - 1);
             let away = vec2f(tap_pixel) - place_at;
             if max(1.0 - abs(away.x), 0.0) * max(1.0 - abs(away.y), 0.0) > 1e-6 {
-                // mean of the geometry samples (kernels/src/sraa/mod.rs:131)
                 var d: f32;
                 if is_equal & all(vec2i(0) == tap_pixel) {
                     d = 0.0;

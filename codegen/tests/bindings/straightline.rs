@@ -2421,7 +2421,7 @@ pub mod sraa {
         };
         Shader::generated(
             WGSL,
-            0xe497_1f40_3a39_3c63,
+            0x3c29_e1c6_9ca9_dc23,
             straightline_runtime::loops_end!(),
             Plan {
                 kernel: Borrowed("sraa"),

@@ -8,7 +8,7 @@
 use super::demodulate::{Demodulate, Paint};
 use super::gbuffer::{DEEPEST, Depth, Normals, Surface};
 use super::metric::{FAR, Metric, Sample, distance};
-use super::options::{Guards, Mask, Normalisation, Resolve, Sraa};
+use super::options::{Guards, Normalisation, Resolve, Sraa};
 use super::pattern::{Place, Shading};
 use super::search::Sum;
 use super::{Inputs, falloff, steepness};
@@ -29,6 +29,9 @@ pub struct History {
     /// in pixels, y down. The earlier raster has its pixel centres at the shading samples; the current one excludes `jitter`.
     /// The third component is by how much larger linear depth was. For a static camera: the earlier frame's `jitter`, negated.
     pub history_motion: FrameLayers<Vec4>,
+    /// With shading=placed and metric=planes-normals: in x and y, position of each shading sample from where its frame shades
+    /// pixels that `place` does not move, in pixels, y down; 0 for those pixels.
+    pub history_place: FrameLayers<Vec4>,
     /// Position of this frame's shading samples from the pixel centre, in pixels, y down; each axis in -0.5..=0.5. The geometry
     /// there is that of the centre.
     pub jitter: Vec2,
@@ -43,6 +46,7 @@ impl History {
             history_rest: layers(),
             history_surface: layers(),
             history_motion: layers(),
+            history_place: layers(),
             jitter: Vec2::ZERO,
         }
     }
@@ -67,13 +71,17 @@ pub(super) fn shift(cfg: &Sraa, nearest: f32) -> f32 {
 
 /// Position of tap `tap` of this frame, in a square of `side` × `side` pixels.
 pub(super) fn own_tap(cfg: &Sraa, inputs: &Inputs, tap: usize, side: usize) -> Place {
-    let tap = cfg.tap(tap, side);
+    jittered(cfg, inputs.history, cfg.tap(tap, side))
+}
+
+/// Position of a shading sample that geometry does not move. With earlier frames, it is `jitter` aside.
+pub(super) fn jittered(cfg: &Sraa, history: &History, place: Place) -> Place {
     if cfg.history == 0 {
-        tap
+        place
     } else {
         Place {
-            at: tap.at + inputs.history.jitter,
-            ..tap
+            at: place.at + history.jitter,
+            ..place
         }
     }
 }
@@ -96,7 +104,7 @@ pub(super) fn remembered(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sam
         for k in 0..SIDE * SIDE {
             let tap = earlier_tap(cfg, inputs, place, frame, k, SIDE);
             // Normals that are not of length 1 can yield a negative difference. No tap may weigh more than 1.
-            let apart = distance(cfg, centre, &tap.seen, tap.place.at).max(0.0);
+            let apart = distance(cfg, centre, &tap.seen, tap.seen_at).max(0.0);
             let near = falloff(cfg, place, tap.place);
             let w = near * (-steepness(cfg) * apart).exp2();
             let w = if tap.is_there { w } else { 0.0 };
@@ -113,10 +121,12 @@ pub(super) fn remembered(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sam
 pub(super) struct Earlier {
     /// Pixel in the earlier frame.
     there: IVec2,
-    /// Position in this frame.
+    /// Position in this frame, for its weight by distance: that of a sample that geometry does not move.
     pub(super) place: Place,
     /// Surface at the sample.
     pub(super) seen: Surface,
+    /// Position of that surface, from the centre of the pixel.
+    pub(super) seen_at: Vec2,
     /// `true` if there is such a sample.
     pub(super) is_there: bool,
 }
@@ -132,13 +142,15 @@ pub(super) fn earlier_tap(cfg: &Sraa, inputs: &Inputs, place: Place, frame: usiz
     let step = ivec2((k % side) as i32 + aside, (k / side) as i32 + aside);
     let there = inputs.pixel + first.as_ivec2() + step;
     let inside = is_inside(there, inputs.history.history_color.size().as_ivec2());
+    let at = first - motion + step.as_vec2();
     Earlier {
         there,
-        place: Place {
-            at: first - motion + step.as_vec2(),
-            ..place
-        },
+        place: Place { at, ..place },
         seen: seen(cfg, inputs, inputs.history.history_surface.load(there, frame), moved.z),
+        seen_at: match (cfg.shading, cfg.metric) {
+            (Shading::Placed, Metric::PlanesNormals) => at + inputs.history.history_place.load(there, frame).xy(),
+            _ => at,
+        },
         is_there: known && inside,
     }
 }
@@ -215,21 +227,12 @@ impl Sraa {
                  where `place` does: set shading=centre or shading=placed"
             );
             assert!(
-                self.shading == Shading::Centre || self.metric != Metric::PlanesNormals,
-                "where in its pixel an earlier frame was shaded that is placed, nothing says, and planes need it: set \
-                 metric=depth-normals or shading=centre"
-            );
-            assert!(
                 self.normalisation == Normalisation::Shifted && self.resolve == Resolve::Box,
                 "history needs normalisation=shifted and resolve=box"
             );
             assert!(
                 self.demodulate != Demodulate::AlbedoShadow,
                 "history keeps no direct light of earlier frames apart: set demodulate=albedo or demodulate=none"
-            );
-            assert!(
-                self.mask == Mask::None,
-                "history adds taps to the filter, and mask leaves pixels out of it: set mask=none"
             );
         }
     }

@@ -1,6 +1,7 @@
 //! The mask: pixels that keep their own colour, because neither geometry nor shading varies there (paper §3.3).
 
 use super::colors::{color, is_kept, own_color};
+use super::history::own_tap;
 use super::options::{Mask, Sraa, Variation};
 use super::placed::shaded_place;
 use super::{Inputs, difference, falloff, filtered, geometry_sample, least};
@@ -49,8 +50,9 @@ fn variation_around<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &I
             let place = cfg.place(sample);
             let centre = geometry_sample(cfg, inputs, place);
             for tap in 0..TAPS {
-                if falloff(cfg, place, cfg.tap(tap, SIDE)) > least(cfg) {
-                    largest = largest.max(difference(cfg, inputs, place, &centre, cfg.tap(tap, SIDE)));
+                let at = own_tap(cfg, inputs, tap, SIDE);
+                if falloff(cfg, place, at) > least(cfg) {
+                    largest = largest.max(difference(cfg, inputs, place, &centre, at));
                 }
             }
         }
@@ -65,7 +67,7 @@ fn variation_within(cfg: &Sraa, inputs: &Inputs) -> f32 {
         let place = cfg.geometry_sample(IVec2::ZERO, sample);
         let seen = geometry_sample(cfg, inputs, place);
         for tap in 0..cfg.shading_samples() {
-            largest = largest.max(difference(cfg, inputs, place, &seen, cfg.tap(tap, 1)));
+            largest = largest.max(difference(cfg, inputs, place, &seen, own_tap(cfg, inputs, tap, 1)));
         }
     }
     largest
@@ -82,13 +84,15 @@ fn is_smooth(cfg: &Sraa, inputs: &Inputs) -> bool {
     let mut largest = 0.0f32;
     if cfg.mask_step < 1.0 {
         let several = cfg.shading_samples();
-        let place = shaded_place(cfg, &inputs.colors.place, inputs.pixel, cfg.tap(4 * several, 3));
+        let centre = own_tap(cfg, inputs, 4 * several, 3);
+        let place = shaded_place(cfg, &inputs.colors.place, inputs.pixel, centre);
         let seen = geometry_sample(cfg, inputs, place);
         let own = color(cfg, inputs, 4 * several, 3);
         for k in 0..4 {
             let tap = (2 * k + 1) * several;
             let away = step(own, color(cfg, inputs, tap, 3));
-            if away > largest && difference(cfg, inputs, place, &seen, cfg.tap(tap, 3)) <= cfg.mask_threshold {
+            let at = own_tap(cfg, inputs, tap, 3);
+            if away > largest && difference(cfg, inputs, place, &seen, at) <= cfg.mask_threshold {
                 largest = away;
             }
         }

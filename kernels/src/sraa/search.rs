@@ -133,7 +133,7 @@ fn farther(cfg: &Sraa, inputs: &Inputs, place: Place, centre: &Sample, own: &Pai
     for frame in 0..cfg.history as usize {
         for k in 0..side * side {
             let tap = earlier_tap(cfg, inputs, place, frame, k, side);
-            let apart = distance(cfg, centre, &tap.seen, tap.place.at);
+            let apart = distance(cfg, centre, &tap.seen, tap.seen_at);
             if tap.is_there && apart <= cfg.search_threshold {
                 let shaded = remembered_color(cfg, inputs, own, &tap, frame);
                 sum.add(cfg, shaded, spread(place, tap.place));

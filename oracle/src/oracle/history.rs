@@ -1,7 +1,7 @@
 //! Shading samples of earlier frames, each where it has moved to.
 
 use super::gbuffer::{DEEPEST, Point};
-use super::{Definition, Demodulate, OracleError, SraaParams, Tap};
+use super::{Definition, Demodulate, Metric, OracleError, Shading, SraaParams, Tap};
 use straightline_kernels::prelude::{Frame, Vec4};
 use straightline_scene::inputs::Inputs;
 
@@ -22,6 +22,8 @@ struct Earlier<'a> {
     rest: Option<&'a Frame<Vec4>>,
     surface: &'a Frame<Vec4>,
     motion: &'a Frame<Vec4>,
+    /// Position of each sample from where its pixel is shaded unless geometry moves it, where planes need it.
+    place: Option<&'a Frame<Vec4>>,
 }
 
 impl<'a> History<'a> {
@@ -53,6 +55,10 @@ impl<'a> History<'a> {
             Demodulate::Albedo | Demodulate::AlbedoShadow if params.rest => Some(layers("history_rest")?),
             _ => None,
         };
+        let place = match (params.shading, params.metric) {
+            (Shading::Placed, Metric::PlanesNormals) => Some(layers("history_place")?),
+            _ => None,
+        };
         let jitter = inputs.uniforms.iter().rev().find(|(known, _)| known == "jitter");
         let jitter = jitter.and_then(|(_, numbers)| numbers.as_slice().try_into().ok());
         let frame = |k: usize| Earlier {
@@ -60,6 +66,7 @@ impl<'a> History<'a> {
             rest: rest.map(|rest| &rest[k]),
             surface: &surface[k],
             motion: &motion[k],
+            place: place.map(|place| &place[k]),
         };
         Ok(History {
             jitter: jitter.ok_or_else(|| missing("jitter", "two numbers"))?,
@@ -98,9 +105,10 @@ impl Definition<'_> {
                     let [nx, ny, nz, depth] = texel(frame.surface, [column, row]);
                     // The sky is as deep as the far plane.
                     let depth = (depth - deeper).min(self.gbuffer.deepest_depth());
+                    let moved = frame.place.map_or([0.0; 4], |place| texel(place, [column, row]));
                     let [base, ray] = self
                         .gbuffer
-                        .ray([0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + now[axis]));
+                        .ray([0, 1].map(|axis| f64::from(pixel[axis]) + 0.5 + now[axis] + moved[axis]));
                     let seen = Point {
                         depth: if depth.abs() < DEEPEST { depth } else { DEEPEST },
                         normal: self.gbuffer.compared_normal([nx, ny, nz]),

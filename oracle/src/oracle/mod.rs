@@ -161,12 +161,13 @@ impl<'a> Definition<'a> {
         Resolved { color, sure }
     }
 
-    /// Returns whether the mask compares a tap with a geometry sample.
+    /// Returns whether the mask compares a tap with a geometry sample: one of this frame.
     fn is_looked_at(&self, (pixel, _): ([i32; 2], usize), tap: &Tap) -> bool {
-        match self.params.variation {
+        let is_near = match self.params.variation {
             Variation::Around => true,
             Variation::Within => pixel == [0, 0] && tap.at.0 == [0, 0],
-        }
+        };
+        is_near && !tap.is_earlier
     }
 
     /// The mean over all finite colours, each by its weight in the whole pixel.

@@ -29,10 +29,7 @@ pub(super) fn layers(capture: &Capture) -> Result<&FrameLayers<Vec4>, GBufferErr
 pub(super) fn colors(capture: &Capture, options: &OptionValues) -> Result<Inputs, GBufferError> {
     let given = layers(capture)?;
     let cfg = configured(capture, options)?;
-    let scale = match options.flag("fitted") {
-        Some(true) => fitted(&cfg, capture, given)?,
-        _ => Vec3::ONE,
-    };
+    let scale = scale(&cfg, capture, options, given)?;
     let guide = &scaled(given, scale);
     let mut inputs = Inputs::new(capture.size)
         .with_image("color", color(capture, guide))
@@ -45,6 +42,26 @@ pub(super) fn colors(capture: &Capture, options: &OptionValues) -> Result<Inputs
         inputs = inputs.with_layers("colors", differences.collect());
     }
     Ok(inputs)
+}
+
+/// Returns colours as differences from the guide, for a filter with these options.
+pub(crate) fn differences(capture: &Capture, options: &OptionValues) -> Result<Frame<Vec4>, GBufferError> {
+    let given = layers(capture)?;
+    let cfg = configured(capture, options)?;
+    Ok(color(capture, &scaled(given, scale(&cfg, capture, options, given)?)))
+}
+
+/// Returns the scale of the guide.
+fn scale(
+    cfg: &Sraa,
+    capture: &Capture,
+    options: &OptionValues,
+    given: &FrameLayers<Vec4>,
+) -> Result<Vec3, GBufferError> {
+    match options.flag("fitted") {
+        Some(true) => fitted(cfg, capture, given),
+        _ => Ok(Vec3::ONE),
+    }
 }
 
 /// Returns the guide times a scale, as the filter counts it.

@@ -14,7 +14,7 @@ use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
 
 pub use coarse::{Coarse, detect_coarse_depth};
-pub(crate) use guide::difference_at;
+pub(crate) use guide::{difference_at, differences as guide_differences};
 pub use offsets::{Misplaced, find_misplaced};
 pub(crate) use pattern::pattern_of;
 pub use pattern::{PATTERNS, in_parallel, pattern_offsets, sampled_at};

@@ -36,7 +36,7 @@ pub use extra::{Extra, listing_options, shade_extra};
 pub use gpu::guard::with_error_scope;
 pub use gpu::{FramePass, FramePasses, GpuRenderer, Listed, MultisampledGeometry, Samples, Timestamps};
 pub use guide::add_guide;
-pub(crate) use placed::{OFFSETS, gather_placed};
+pub(crate) use placed::{OFFSETS, gather_placed, shade_placed_aside};
 pub use placed::{Placed, PlacedBy, shade_placed};
 pub use reference::{grid_offsets, render_reference};
 pub use shade::{GuideLight, Surface};

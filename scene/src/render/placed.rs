@@ -7,7 +7,9 @@ use glam::{IVec2, Vec2, Vec3, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_kernels::sraa::{Difference, GBuffer, Metric, Pattern, Projection, Sraa, View, sraa_place};
+use straightline_kernels::sraa::{
+    Difference, GBuffer, History, Metric, Pattern, Projection, Sraa, View, sraa_place,
+};
 
 /// Offsets that differ: with this metric it is only counted how many there are.
 pub(crate) static OFFSETS: [f32; 2 * MAX_SAMPLES] = {
@@ -175,10 +177,20 @@ pub struct Placed {
 ///
 /// What the renderer refuses.
 pub fn shade_placed(capture: &Capture, renderer: &dyn Renderer, by: PlacedBy) -> Result<Option<Placed>, RenderError> {
-    let Some(place) = choose_places(capture, by) else {
+    shade_placed_aside(capture, renderer, by, Vec2::ZERO)
+}
+
+/// [`shade_placed`] for a capture that is shaded `jitter` from the centres of its pixels. `renderer` draws the picture moved by that.
+pub(crate) fn shade_placed_aside(
+    capture: &Capture,
+    renderer: &dyn Renderer,
+    by: PlacedBy,
+    jitter: Vec2,
+) -> Result<Option<Placed>, RenderError> {
+    let Some(place) = choose_places(capture, by, jitter) else {
         return Ok(None);
     };
-    let mut places = capture.samples.clone();
+    let mut places: Vec<Vec2> = capture.samples.iter().map(|at| *at - jitter).collect();
     places.push(Vec2::ZERO);
     let moved = |centred: &Frame<Vec4>, drawn: &dyn Fn(Vec2) -> Result<Frame<Vec4>, RenderError>| {
         gather_placed(&places, &place, centred.clone(), drawn)
@@ -197,11 +209,21 @@ pub fn shade_placed(capture: &Capture, renderer: &dyn Renderer, by: PlacedBy) ->
 }
 
 /// The layer in whose place each pixel is to be shaded: the kernel `sraa_place`, as rustc compiles it.
-fn choose_places(capture: &Capture, by: PlacedBy) -> Option<Frame<u32>> {
+fn choose_places(capture: &Capture, by: PlacedBy, jitter: Vec2) -> Option<Frame<u32>> {
     let Surfaces { cfg, gbuffer, view } = &Surfaces::new(capture, by)?;
+    let cfg = &Sraa {
+        // Only with earlier frames is shading anywhere else than at the centre.
+        history: i32::from(jitter != Vec2::ZERO),
+        ..*cfg
+    };
+    let history = &History {
+        jitter,
+        ..History::unread()
+    };
     let size = capture.size;
     let rows = (0..size.y as i32).into_par_iter();
-    let texels = rows.flat_map_iter(|y| (0..size.x as i32).map(move |x| sraa_place(cfg, gbuffer, view, ivec2(x, y))));
+    let place = |x, y| sraa_place(cfg, gbuffer, view, history, ivec2(x, y));
+    let texels = rows.flat_map_iter(|y| (0..size.x as i32).map(move |x| place(x, y)));
     Some(Frame::new(size, texels.collect()))
 }
 

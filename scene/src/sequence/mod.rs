@@ -4,11 +4,13 @@
 //! vertices and their cameras are, [`motion_vectors`] says where each pixel's surface was.
 
 use crate::capture::{Capture, ShadingSample};
+use crate::gbuffer::{self, GBufferError};
 use crate::inputs::Inputs;
-use crate::render::{self, CpuRenderer, RenderError, Renderer, Shifted, gather_placed};
+use crate::render::{self, CpuRenderer, PlacedBy, RenderError, Renderer, Shifted, gather_placed};
 use crate::scene::{SKY_DEPTH, Scene};
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec3};
 use rayon::prelude::*;
+use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::Frame;
 
 /// Shading places of frames, one after the other and then again from the first, in pixels from the centre: four places that
@@ -29,11 +31,13 @@ pub struct Moment {
     scene: Scene,
     jitter: Vec2,
     capture: Capture,
+    /// Differences from the guide, if a filter has one.
+    differences: Option<Frame<Vec4>>,
 }
 
 impl Moment {
-    /// A scene shaded once a pixel, `jitter` from its centre or, if `shading` is [`ShadingSample::Placed`], at one of
-    /// `samples` where geometry asks for it. What its capture has as geometry of the centre is that at `jitter`.
+    /// A scene shaded once a pixel, `jitter` from its centre or, if `placed`, at one of `samples` where geometry asks for it.
+    /// What its capture has as geometry of the centre is that at `jitter`.
     ///
     /// # Errors
     ///
@@ -43,7 +47,7 @@ impl Moment {
         size: UVec2,
         jitter: Vec2,
         samples: &[Vec2],
-        shading: ShadingSample,
+        placed: Option<PlacedBy>,
     ) -> Result<Moment, RenderError> {
         let renderer = CpuRenderer::new(&scene, size)?;
         let moved = Shifted {
@@ -51,13 +55,22 @@ impl Moment {
             by: jitter,
         };
         let from_there: Vec<Vec2> = samples.iter().map(|at| *at - jitter).collect();
-        let mut capture = render::capture_scene(&moved, &from_there, shading)?;
+        let mut capture = render::capture_scene(&moved, &from_there, ShadingSample::Centre)?;
         capture.samples = samples.to_vec();
+        if let Some(by) = placed {
+            let samples = samples.len();
+            let placed = render::shade_placed_aside(&capture, &moved, by, jitter)?;
+            let placed = placed.ok_or(RenderError::Unnamed { samples })?;
+            capture.shading = ShadingSample::Placed;
+            capture.color = placed.color;
+            capture.place = Some(placed.place);
+        }
         Ok(Moment {
             renderer,
             scene,
             jitter,
             capture,
+            differences: None,
         })
     }
 
@@ -67,14 +80,36 @@ impl Moment {
     /// # Errors
     ///
     /// What the renderer refuses.
-    pub fn with_albedo(mut self) -> Result<Moment, RenderError> {
+    pub fn with_albedo(self) -> Result<Moment, RenderError> {
+        self.with_more(render::add_albedo)
+    }
+
+    /// Adds the guide, and for later frames the differences from it that a filter with these options reads.
+    ///
+    /// # Errors
+    ///
+    /// What the renderer refuses; [`GBufferError`] if the options do not suit the capture.
+    pub fn with_guide<E>(self, options: &OptionValues) -> Result<Moment, E>
+    where
+        E: From<RenderError> + From<GBufferError>,
+    {
+        let mut guided = self.with_more(render::add_guide)?;
+        guided.differences = Some(gbuffer::guide_differences(&guided.capture, options)?);
+        Ok(guided)
+    }
+
+    /// Adds something at every geometry sample, whose places `add` reads in the moved picture.
+    fn with_more(
+        mut self,
+        add: fn(&mut Capture, &dyn Renderer) -> Result<(), RenderError>,
+    ) -> Result<Moment, RenderError> {
         let moved = Shifted {
             renderer: &self.renderer,
             by: self.jitter,
         };
         let samples = self.capture.samples.clone();
         self.capture.samples = samples.iter().map(|at| *at - self.jitter).collect();
-        render::add_albedo(&mut self.capture, &moved)?;
+        add(&mut self.capture, &moved)?;
         self.capture.samples = samples;
         Ok(self)
     }
@@ -102,6 +137,10 @@ impl Moment {
             .with_layers("history_color", earlier.iter().map(|then| then.kept_light()).collect())
             .with_layers("history_surface", surfaces)
             .with_layers("history_motion", motions?)
+            .with_layers(
+                "history_place",
+                earlier.iter().map(|then| then.moved_places()).collect(),
+            )
             .with_uniform("jitter", &self.jitter.to_array().map(f64::from));
         Ok(match rests {
             Some(rests) => inputs.with_layers("history_rest", rests),
@@ -116,8 +155,21 @@ impl Moment {
         chosen.map_or(centre, |chosen| chosen.texels()[k] as usize)
     }
 
-    /// Colours of the frame, or light if its albedo is known.
+    /// Offset of each pixel's shading sample from `jitter`, in x and y.
+    fn moved_places(&self) -> Frame<Vec4> {
+        let texel = |k| match self.capture.samples.get(self.shaded_layer(k)) {
+            Some(sample) => (*sample - self.jitter).extend(0.0).extend(0.0),
+            None => Vec4::ZERO,
+        };
+        let pixels = self.capture.color.texels().len();
+        Frame::new(self.capture.size, (0..pixels).map(texel).collect())
+    }
+
+    /// Colours of the frame; light if its albedo is known, and differences if its guide is.
     fn kept_light(&self) -> Frame<Vec4> {
+        if let Some(differences) = &self.differences {
+            return differences.clone();
+        }
         let Capture {
             albedo, rest, color, ..
         } = &self.capture;

@@ -11,11 +11,7 @@ fn moved_scene(by: Vec3) -> Scene {
 }
 
 fn draw_moment(scene: Scene, jitter: Vec2) -> Moment {
-    draw_shaded(scene, jitter, ShadingSample::Centre)
-}
-
-fn draw_shaded(scene: Scene, jitter: Vec2, shading: ShadingSample) -> Moment {
-    Moment::draw(scene, SIZE, jitter, &PLACES, shading).expect("a picture")
+    Moment::draw(scene, SIZE, jitter, &PLACES, None).expect("a picture")
 }
 
 /// Depths where the pixels' shading samples lie that are not moved.
@@ -66,18 +62,42 @@ fn motion_leads_to_the_same_surface_in_the_earlier_frame() {
 #[test]
 fn a_pixel_that_is_shaded_elsewhere_has_the_motion_of_what_is_seen_there() {
     let (before, after) = (moved_scene(Vec3::ZERO), moved_scene(vec3(0.11, 0.03, -0.08)));
-    let placed = draw_shaded(after.clone(), PLACES[3], ShadingSample::Placed);
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
     let then = draw_moment(before, PLACES[0]);
-    let found = motion_vectors(&placed, &then).expect("motion");
-    let mut elsewhere = 0;
-    for (layer, place) in PLACES.into_iter().chain([PLACES[3]]).enumerate() {
-        let there = motion_vectors(&draw_moment(after.clone(), place), &then).expect("motion");
-        let shaded_there = draw_moment(after.clone(), place);
-        for k in (0..found.texels().len()).filter(|k| placed.shaded_layer(*k) == layer) {
-            assert_eq!(found.texels()[k], there.texels()[k]);
-            assert_eq!(placed.capture.color.texels()[k], shaded_there.capture.color.texels()[k]);
-            elsewhere += usize::from(layer < PLACES.len());
+    for by in [PlacedBy::Depths, PlacedBy::Planes] {
+        let placed = Moment::draw(after.clone(), SIZE, PLACES[3], &samples, Some(by)).expect("a picture");
+        let found = motion_vectors(&placed, &then).expect("motion");
+        let moved = placed.moved_places();
+        let mut elsewhere = 0;
+        for (layer, place) in samples.iter().copied().chain([PLACES[3]]).enumerate() {
+            let shaded_there = draw_moment(after.clone(), place);
+            let there = motion_vectors(&shaded_there, &then).expect("motion");
+            for k in (0..found.texels().len()).filter(|k| placed.shaded_layer(*k) == layer) {
+                assert_eq!(found.texels()[k], there.texels()[k]);
+                assert_eq!(placed.capture.color.texels()[k], shaded_there.capture.color.texels()[k]);
+                assert_eq!(moved.texels()[k], (place - PLACES[3]).extend(0.0).extend(0.0));
+                elsewhere += usize::from(layer < samples.len());
+            }
         }
+        assert!(elsewhere > 30, "{by:?}: {elsewhere} pixels are shaded elsewhere");
     }
-    assert!(elsewhere > 30, "{elsewhere} pixels are shaded elsewhere");
+}
+
+/// Colours are kept as differences from the guide where each pixel is shaded.
+#[test]
+fn a_frame_with_a_guide_keeps_differences() {
+    let samples = gbuffer::pattern_offsets("latin4").expect("a pattern");
+    let draw = || {
+        let scene = moved_scene(Vec3::ZERO);
+        Moment::draw(scene, SIZE, PLACES[1], &samples, Some(PlacedBy::Planes)).expect("a picture")
+    };
+    let plain = draw();
+    let guided = draw().with_guide::<Box<dyn std::error::Error>>(&OptionValues::default());
+    let guided = guided.expect("a guide");
+    let guide = guided.capture.guide.as_ref().expect("a guide");
+    for (k, kept) in guided.kept_light().texels().iter().enumerate() {
+        let there = guide.layers()[guided.shaded_layer(k)].texels()[k];
+        let difference = plain.capture.color.texels()[k] - there.truncate().extend(0.0);
+        assert!((*kept - difference).abs().max_element() < 1.0e-6, "{kept} at {k}");
+    }
 }

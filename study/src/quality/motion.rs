@@ -200,8 +200,9 @@ impl Sequence {
         before: usize,
         judged: usize,
     ) -> Result<Vec<Moment>, QualityError> {
-        let shading = match method.shading_sample() {
-            shading @ (ShadingSample::Centre | ShadingSample::Placed) => shading,
+        let placed = match method.shading_sample() {
+            ShadingSample::Centre => None,
+            ShadingSample::Placed => Some(method.placed_by()),
             _ => return Err(QualityError::NotInMotion(method.name.clone())),
         };
         let moment = |frame: usize| {
@@ -211,7 +212,7 @@ impl Sequence {
                 PLACES[frame % PLACES.len()]
             };
             let scene = self.motion.scene_at_frame(&self.scene, self.size, frame);
-            let drawn = Moment::draw(scene, self.size, jitter, samples, shading.clone())?;
+            let drawn = Moment::draw(scene, self.size, jitter, samples, placed)?;
             Ok(if method.reads_albedo() {
                 drawn.with_albedo()?
             } else {

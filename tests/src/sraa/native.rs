@@ -194,6 +194,7 @@ fn history(inputs: &Inputs) -> History {
             "history_rest" => history.history_rest = layers,
             "history_surface" => history.history_surface = layers,
             "history_motion" => history.history_motion = layers,
+            "history_place" => history.history_place = layers,
             _ => {}
         }
     }

@@ -155,7 +155,8 @@ fn with_extra(inputs: Inputs, samples: usize, size: UVec2, seed: u64) -> Inputs 
 fn with_history(inputs: Inputs, size: UVec2, seed: u64) -> Inputs {
     let edges = edges(&mut Random(seed), size);
     let mut random = Random(seed ^ 0x0b501e7e);
-    let (mut color, mut seen, mut motion) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut color, mut seen, mut motion, mut place) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut moves = Random(seed ^ 0x91ace);
     let pixels = || (0..size.y).flat_map(|y| (0..size.x).map(move |x| uvec2(x, y)));
     for frame in 0..4 {
         let moved = vec2(4.0 * random.unit() - 2.0, 4.0 * random.unit() - 2.0);
@@ -178,12 +179,18 @@ fn with_history(inputs: Inputs, size: UVec2, seed: u64) -> Inputs {
             false => vec4(moved.x, moved.y, deeper, 0.0),
         };
         motion.push(Frame::new(size, pixels().map(&mut own).collect()));
+        let mut moved = |_| match moves.unit() < 0.3 {
+            true => vec4(moves.unit() - 0.5, moves.unit() - 0.5, 0.0, 0.0),
+            false => Vec4::ZERO,
+        };
+        place.push(Frame::new(size, pixels().map(&mut moved).collect()));
     }
     inputs
         .with_layers("history_color", color)
         .with_layers("history_rest", (0..4).map(|_| colors(&mut random, size)).collect())
         .with_layers("history_surface", seen)
         .with_layers("history_motion", motion)
+        .with_layers("history_place", place)
         .with_uniform("jitter", &[-0.125, 0.3125])
 }
 

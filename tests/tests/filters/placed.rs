@@ -11,6 +11,7 @@ use straightline_oracle::oracle::{self, Placed, SraaParams};
 use straightline_scene::capture::{Capture, ShadingSample};
 use straightline_scene::render::{self, CpuRenderer, PlacedBy, Renderer};
 use straightline_scene::scene::Scene;
+use straightline_scene::sequence::{Moment, PLACES};
 use straightline_scene::{gbuffer, picture};
 use straightline_tests::sraa::options::{Options, one_at_a_time, options, refusal, samples_needed, value, values};
 use straightline_tests::sraa::{self, surfaces};
@@ -107,6 +108,34 @@ fn places_are_those_of_the_definition() {
         moved > 500,
         "{moved} pixels are shaded at a sample: too few to say anything"
     );
+}
+
+/// With earlier frames, centres lie `jitter` aside, and planes need to know.
+#[test]
+fn places_are_those_of_the_definition_in_a_frame_that_is_shaded_aside() {
+    let bench = bench();
+    let planes = PlacedBy::Planes.options();
+    let scene = Scene::from_name("railings").expect("a scene");
+    for pattern in ["latin4", "latin16"] {
+        let still = options(&[planes, &[("pattern", pattern)]].concat());
+        let set = options(&[planes, &[("pattern", pattern), ("history", "1")]].concat());
+        let samples = gbuffer::pattern_offsets(pattern).expect("a pattern");
+        let [now, then] = [PLACES[1], PLACES[2]]
+            .map(|jitter| Moment::draw(scene.clone(), SIZE, jitter, &samples, None).expect("a picture"));
+        let inputs = gbuffer::sraa_inputs(now.capture(), &values(&still)).expect("inputs");
+        let inputs = now.with_history(inputs, &[&then]).expect("inputs");
+        let moved = places_agree(&bench, &set, &inputs);
+        assert!(moved > 10, "{moved} pixels are shaded at a sample");
+        let placed = |set: &Options| {
+            let kernel = compiled("sraa_place", set, Unroll::Full);
+            interpret_kernel::<f32>(&kernel, &inputs, false)
+                .expect("it runs")
+                .targets
+                .swap_remove(0)
+        };
+        let [aside, centred] = [&set, &still].map(placed);
+        assert!(aside.texels != centred.texels, "{pattern}: the jitter changes nothing");
+    }
 }
 
 /// A frame of railings, shaded once a pixel: where it is placed, by planes or by depths.
