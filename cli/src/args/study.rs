@@ -200,13 +200,14 @@ pub struct MotionArgs {
     /// Method to compare, by its name in this study's record, or as `study error --method` takes it for `sraa`; may be
     /// given several times
     ///
-    /// By default SRAA with 4 and 16 samples: placed and searched, with history, and with everything; and supersampling.
+    /// By default SRAA with 4 and 16 samples, in its presets, with history and before temporal antialiasing; one sample a pixel
+    /// without and with temporal antialiasing; and supersampling.
     #[arg(long = "method", value_name = "NAME[=KERNEL[,OPTION=VALUE]...]")]
     pub methods: Vec<String>,
-    /// Built-in scene (see `scenes`); may be given several times; by default railings and roof
+    /// Built-in scene (see `scenes`); may be given several times; by default railings, roof and posters
     #[arg(long, value_name = "NAME")]
     pub scene: Vec<String>,
-    /// Number of compared frames, after four that only fill the history
+    /// Number of compared frames, after sixteen that only fill the history
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(2..=1000))]
     pub frames: u32,
 }

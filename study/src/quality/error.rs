@@ -20,7 +20,7 @@ pub enum QualityError {
     #[error("nothing was drawn for {0}")]
     NotDrawn(String),
     /// A method was requested in motion that does not support consecutive frames.
-    #[error("`{0}` is not compared in motion: SRAA is that shades once a pixel, and supersampling")]
+    #[error("`{0}` is not compared in motion: 1x, SRAA that shades once a pixel, and supersampling are")]
     NotInMotion(String),
     /// The scene could not be drawn.
     #[error(transparent)]

@@ -67,6 +67,8 @@ pub struct Method {
     pub explained: bool,
     /// Scene units from the upper to the lower edge of pictures of a camera with parallel rays, if it is for one.
     parallel_height: Option<f32>,
+    /// True if temporal antialiasing comes after the method, in motion.
+    pub has_taa: bool,
 }
 
 impl Method {
@@ -83,6 +85,7 @@ impl Method {
             last: false,
             explained: false,
             parallel_height: None,
+            has_taa: false,
         };
         method.with_options(options.iter().map(own).collect())
     }
@@ -210,6 +213,10 @@ impl Method {
             panned: true,
             ..self
         }
+    }
+
+    pub(super) fn with_taa(self) -> Method {
+        Method { has_taa: true, ..self }
     }
 
     fn with_picture(self) -> Method {

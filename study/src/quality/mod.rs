@@ -17,8 +17,10 @@ mod pan;
 mod post;
 pub mod resolves;
 mod scores;
+mod sequence;
 mod shot;
 mod surfaces;
+mod taa;
 #[cfg(test)]
 mod tests;
 
@@ -45,7 +47,8 @@ pub use figures::{FIGURES, Figure, Made, Pane};
 pub use film::{Film, REFERENCE, Shooting, film_scene};
 pub use losses::list_losses;
 pub use methods::{Method, MethodKind, OwnError, list_methods, methods_of, preset_names};
-pub use motion::{BEFORE, Sequence, in_motion, methods_in_motion};
+pub use motion::{in_motion, methods_in_motion};
+pub use sequence::{BEFORE, Sequence};
 pub use shot::Shot;
 pub use surfaces::{Point, Surfaces};
 

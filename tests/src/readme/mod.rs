@@ -84,6 +84,8 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "guide-goals" => presets::goals(&read(files, 0)?),
         "demodulated" => Ok(quality::demodulated(&read(files, 0)?)),
         "motion" => Ok(motion::methods(&read(files, 0)?)),
+        "temporal" => Ok(motion::temporal(&read(files, 0)?)),
+        "temporal-short" => Ok(motion::in_short(&read(files, 0)?)),
         "gaps" => Ok(quality::gaps(&read(files, 0)?)),
         "hard" => hard::kernels(files),
         "rivals" => Ok(isa::rivals(&read(files, 0)?)),
@@ -109,7 +111,7 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "crates" => crates::needs(files),
         "sweep" => sweep::factors(&read(files, 0)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, guide-sizes, demodulated, motion, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, forms, workgroups, registers, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, guide-sizes, demodulated, motion, temporal, temporal-short, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, forms, workgroups, registers, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

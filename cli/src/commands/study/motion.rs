@@ -11,8 +11,8 @@ use glam::UVec2;
 use straightline_study::quality;
 use straightline_study::record::{Motion, MotionRecord, MovedScene, Record};
 
-/// Scenes by default: thin objects in front of others, and edges near and far.
-const USUAL: [&str; 2] = ["railings", "roof"];
+/// Scenes by default: thin objects in front of others, edges near and far, and paint.
+const USUAL: [&str; 3] = ["railings", "roof", "posters"];
 
 /// Default width and height, small enough for a software renderer.
 const SIZE: UVec2 = UVec2::new(240, 135);
