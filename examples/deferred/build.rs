@@ -1,26 +1,25 @@
-//! Turns the built-in kernels of SRAA into shaders and the Rust code that binds them.
+//! Turns the built-in kernels of SRAA into shaders and the Rust code that binds them: the filter once for each preset.
 
-use straightline_codegen::config::KernelConfig;
+use straightline_codegen::config::{Config, Error, KernelConfig};
 
-fn main() -> Result<(), straightline_codegen::config::Error> {
-    straightline_codegen::Config::new()
-        // The pass that places shading, and the filter. Numbers that are uniforms turn their parts off while the example runs. A
-        // renderer that needs no switch sets only the parts that it wants, which makes its shader smaller.
-        .kernel("sraa_place", |k| geometry(k).set("unseen", "uniform"))
-        .kernel("sraa", |k| {
-            geometry(k)
-                .set("search", "five")
-                .set("search-threshold", "uniform")
-                .set("demodulate", "albedo")
-                .set("albedo-floor", "uniform")
-                .set("rest", true)
-                .set("history", 3)
-        })
+fn main() -> Result<(), Error> {
+    let mut config = Config::new();
+    for preset in ["paper", "fast", "edges", "full", "guided"] {
+        config = config.kernel("sraa", |k| k.set("preset", preset).name(&format!("sraa_{preset}")));
+    }
+    config
+        // Places of the shading: `full` has the same.
+        .kernel("sraa_place", guided)
+        // The guide: its scale from sums over tiles, its mean over each pixel, and the colours less the guide. The sums are fewer
+        // than the pixels that they read, which only a region may be.
+        .kernel("sraa_fit_sums", |k| guided(k).region(true))
+        .kernel("sraa_fit", guided)
+        .kernel("sraa_guide", guided)
+        .kernel("sraa_residual", guided)
         .compile()
 }
 
-/// Four geometry samples a pixel, with shading at one of these or at the pixel's centre. Depth differences are relative, so that
-/// a receding floor is one surface.
-fn geometry(k: KernelConfig) -> KernelConfig {
-    k.set("pattern", "latin4").set("shading", "placed").set("difference", "relative").set("depth-scale", 3)
+/// Options that kernels beside the filter share with it. The guide is the albedo in the light of a sun and of an even sky.
+fn guided(kernel: KernelConfig) -> KernelConfig {
+    kernel.set("preset", "guided").set("estimate", "diffuse")
 }

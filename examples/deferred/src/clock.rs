@@ -5,18 +5,27 @@ use std::fmt;
 use std::time::Duration;
 use straightline_runtime::{Error, Span, Timer, wgpu};
 
-/// Passes of a frame: five of geometry, placing, shading, motion, SRAA, keeping, and presenting.
-const PASSES: u32 = 11;
+/// Passes of a frame at most: five of geometry, shading, presenting, and six kernels of SRAA.
+const PASSES: u32 = 13;
 
 /// Upper limit on frames with pending timestamps. Frames beyond it are not timed on the device.
 const UNDER_WAY: usize = 8;
+
+/// Part of a frame that a pass belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    Scene,
+    Sraa,
+}
 
 /// Frame times, accumulated until they are read.
 pub struct Clock {
     /// `None` if the device has no timestamps.
     timer: Option<Timer>,
-    /// For each frame with pending timestamps: the indices of its SRAA passes.
-    under_way: VecDeque<&'static [usize]>,
+    /// Passes of the frame that is being recorded.
+    passes: Vec<Part>,
+    /// Passes of each frame with pending timestamps.
+    under_way: VecDeque<Vec<Part>>,
     recorded: Sum,
     device: Sum,
     sraa: Sum,
@@ -64,6 +73,7 @@ impl Clock {
         let timed = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
         Ok(Clock {
             timer: timed.then(|| Timer::new(device, queue, PASSES)).transpose()?,
+            passes: Vec::new(),
             under_way: VecDeque::new(),
             recorded: Sum::default(),
             device: Sum::default(),
@@ -71,25 +81,23 @@ impl Clock {
         })
     }
 
-    fn running(&mut self) -> Option<&mut Timer> {
-        self.timer.as_mut().filter(|_| self.under_way.len() < UNDER_WAY)
+    /// Returns the timer for the next pass of the frame. A kernel of the runtime takes its span itself.
+    pub fn timer(&mut self, part: Part) -> Option<&mut Timer> {
+        let timer = self.timer.as_mut().filter(|_| self.under_way.len() < UNDER_WAY)?;
+        self.passes.push(part);
+        Some(timer)
     }
 
     /// Returns the timestamp span for the next pass of the frame.
-    pub fn span(&mut self) -> Result<Option<Span<'_>>, Error> {
-        self.running().map(Timer::span).transpose()
-    }
-
-    /// Returns the timer, for a pass of the runtime, which takes its span itself.
-    pub fn timer(&mut self) -> Option<&mut Timer> {
-        self.running()
+    pub fn span(&mut self, part: Part) -> Result<Option<Span<'_>>, Error> {
+        self.timer(part).map(Timer::span).transpose()
     }
 
     /// Resolves the frame's timestamps in `encoder`.
-    pub fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder, sraa: &'static [usize]) -> Result<(), Error> {
-        if let Some(timer) = self.running() {
+    pub fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
+        if let Some(timer) = self.timer.as_mut().filter(|_| self.under_way.len() < UNDER_WAY) {
             timer.resolve(encoder)?;
-            self.under_way.push_back(sraa);
+            self.under_way.push_back(std::mem::take(&mut self.passes));
         }
         Ok(())
     }
@@ -102,15 +110,23 @@ impl Clock {
 
     fn collect(&mut self) -> Result<(), Error> {
         let Some(timer) = &mut self.timer else { return Ok(()) };
-        while let Some(sraa) = self.under_way.front() {
-            let Some(spans) = timer.try_read()? else { break };
+        while !self.under_way.is_empty()
+            && let Some(spans) = timer.try_read()?
+            && let Some(passes) = self.under_way.pop_front()
+        {
             self.device.add(spans.iter().sum());
-            if !sraa.is_empty() {
-                self.sraa.add(sraa.iter().filter_map(|pass| spans.get(*pass)).sum());
+            if passes.contains(&Part::Sraa) {
+                let of_sraa = spans.iter().zip(&passes).filter(|(_, part)| **part == Part::Sraa);
+                self.sraa.add(of_sraa.map(|(span, _)| *span).sum());
             }
-            self.under_way.pop_front();
         }
         Ok(())
+    }
+
+    /// Discards the times of earlier frames. Timestamps that have not arrived yet still count.
+    #[cfg(any(feature = "window", target_arch = "wasm32"))]
+    pub fn clear(&mut self) {
+        (self.recorded, self.device, self.sraa) = Default::default();
     }
 
     /// Returns means since the last call. `None` if there was no frame, or no timestamps have arrived yet.

@@ -1,8 +1,8 @@
 //! Renders a frame without a window, as bytes.
 
+use crate::antialiasing::Antialiasing;
 use crate::gpu::Gpu;
-use crate::options::Parts;
-use crate::renderer::{EARLIER, Renderer};
+use crate::renderer::Renderer;
 use crate::{Failure, Size};
 use std::future::poll_fn;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -12,25 +12,22 @@ use wgpu::TextureFormat;
 
 pub const FORMAT: TextureFormat = TextureFormat::Rgba8UnormSrgb;
 
-/// Seconds between frames.
-const STEP: f32 = 1.0 / 60.0;
-
-/// Draws the frame at `time` seconds, after as many as it remembers. Returns four bytes a pixel, sRGB, rows from the top.
+/// Draws the frame at `time` seconds. Returns four bytes a pixel, sRGB, rows from the top.
 pub async fn draw(
     gpu: &Gpu,
     renderer: &mut Renderer,
     size: Size,
     time: f32,
-    parts: Parts,
+    antialiasing: Antialiasing,
 ) -> Result<Vec<u8>, Failure> {
     let target = target(gpu, size);
-    let earlier = if parts.history { EARLIER } else { 0 };
-    for before in (0..=earlier).rev() {
-        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
-        renderer.draw(time - STEP * before as f32, parts, &view)?;
-    }
+    renderer.draw(time, antialiasing, &target.create_view(&wgpu::TextureViewDescriptor::default()))?;
+    read(gpu, &target).await
+}
 
-    let [width, height] = size;
+/// Reads a target back, as `draw` returns it.
+pub async fn read(gpu: &Gpu, target: &wgpu::Texture) -> Result<Vec<u8>, Failure> {
+    let [width, height] = [target.width(), target.height()];
     let row = (width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
@@ -93,6 +90,7 @@ async fn map(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<(), Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::antialiasing::Preset;
 
     /// Counts the pixels whose colour clearly differs from that of the pixel to the right.
     fn steps(pixels: &[u8], width: u32) -> usize {
@@ -102,67 +100,27 @@ mod tests {
     }
 
     #[test]
-    fn one_renderer_draws_frames_of_changing_size_with_and_without() {
+    fn one_renderer_draws_every_choice_at_changing_sizes() {
         let gpu = pollster::block_on(Gpu::headless(false)).unwrap();
         let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [320, 180], FORMAT).unwrap();
-        let mut frame = |size, time, sraa| {
-            let parts = Parts { sraa, ..Parts::ALL };
-            pollster::block_on(draw(&gpu, &mut renderer, size, time, parts)).unwrap()
-        };
+        let mut frame =
+            |size, time, antialiasing| pollster::block_on(draw(&gpu, &mut renderer, size, time, antialiasing)).unwrap();
         for size in [[320, 180], [201, 133], [1, 1], [320, 180]] {
-            let [with, without] = [true, false].map(|sraa| frame(size, 2.0, sraa));
-            assert_eq!(with.len(), (size[0] * size[1] * 4) as usize);
-            assert!(size == [1, 1] || with != without, "SRAA changes nothing at {size:?}");
-            let (smooth, hard) = (steps(&with, size[0]), steps(&without, size[0]));
+            let drawn = Antialiasing::ALL.map(|(antialiasing, _)| frame(size, 2.0, antialiasing));
+            let hard = steps(&drawn[0], size[0]);
             assert!(size == [1, 1] || hard > 500, "an empty picture at {size:?}: {hard} edges");
-            assert!(smooth > hard / 2 || size == [1, 1], "SRAA blurs {hard} edges to {smooth} at {size:?}");
+            for (k, (antialiasing, _)) in Antialiasing::ALL.into_iter().enumerate() {
+                assert_eq!(drawn[k].len(), (size[0] * size[1] * 4) as usize);
+                if size != [1, 1] {
+                    assert!(!drawn[..k].contains(&drawn[k]), "{antialiasing} changes nothing at {size:?}");
+                    let smooth = steps(&drawn[k], size[0]);
+                    assert!(smooth > hard / 2, "{antialiasing} blurs {hard} edges to {smooth} at {size:?}");
+                }
+            }
         }
         // The scene rotates.
-        let [now, later] = [2.0, 2.5].map(|time| frame([320, 180], time, true));
+        let [now, later] = [2.0, 2.5].map(|time| frame([320, 180], time, Antialiasing::Sraa(Preset::Full)));
         assert!(now != later);
-    }
-
-    /// Mean squared difference of 8-bit colours.
-    fn error(picture: &[u8], reference: &[f64]) -> f64 {
-        let squares = picture.iter().zip(reference).map(|(a, b)| (f64::from(*a) - b).powi(2));
-        squares.sum::<f64>() / reference.len() as f64
-    }
-
-    /// Compared with a picture shaded sixteen times a pixel: the same scene at four times the size.
-    #[test]
-    fn each_part_brings_the_picture_nearer_to_supersampling() {
-        const OFF: Parts = Parts { sraa: false, placing: false, searching: false, demodulating: false, history: false };
-        let gpu = pollster::block_on(Gpu::headless(false)).unwrap();
-        let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [320, 180], FORMAT).unwrap();
-        let mut frame = |size, parts| pollster::block_on(draw(&gpu, &mut renderer, size, 2.0, parts)).unwrap();
-        let linear = |byte: u8| (f64::from(byte) / 255.0).powf(2.2);
-        let large = frame([1280, 720], OFF);
-        let shaded_often = (0..320 * 180 * 4).map(|k| {
-            let (x, y, channel) = (k / 4 % 320, k / 4 / 320, k % 4);
-            let at = |j: usize| large[((y * 4 + j / 4) * 1280 + x * 4 + j % 4) * 4 + channel];
-            255.0 * ((0..16).map(|j| linear(at(j))).sum::<f64>() / 16.0).powf(1.0 / 2.2)
-        });
-        let reference: Vec<f64> = shaded_often.collect();
-        let alone = Parts { sraa: true, ..OFF };
-        let helped = [
-            Parts { placing: true, ..alone },
-            Parts { searching: true, ..alone },
-            Parts { demodulating: true, ..alone },
-            Parts { history: true, ..alone },
-        ];
-        let mut off = |parts| error(&frame([320, 180], parts), &reference);
-        let (without, by_sraa, by_all) = (off(OFF), off(alone), off(Parts::ALL));
-        println!("{without:.1} without, {by_sraa:.1} by SRAA, {by_all:.1} by all");
-        assert!(by_sraa < 0.5 * without && by_all < 0.7 * by_sraa);
-        let without_history = off(Parts { history: false, ..Parts::ALL });
-        println!("{without_history:.2} by all but history, {by_all:.2} with it");
-        // The other parts have found nearly all surfaces. The rest is the difference between four and sixteen samples a pixel.
-        assert!(by_all < 1.02 * without_history);
-        for parts in helped {
-            let found = off(parts);
-            println!("{parts}: {found:.1}");
-            assert!(found < 0.97 * by_sraa, "{parts}: {found} of {by_sraa}");
-        }
     }
 
     /// On a device with timestamps, reliable or not, and on a software device without.
@@ -174,17 +132,16 @@ mod tests {
             let timestamps = gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
             let mut renderer = Renderer::new(&gpu.device, &gpu.queue, [320, 180], FORMAT).unwrap();
             assert!(renderer.clock.take().unwrap().is_none(), "nothing was drawn");
-            for sraa in [true, false] {
+            for (antialiasing, _) in Antialiasing::ALL {
                 // More than the limit on pending frames.
                 for _ in 0..12 {
-                    let parts = Parts { sraa, ..Parts::ALL };
-                    pollster::block_on(draw(&gpu, &mut renderer, [320, 180], 2.0, parts)).unwrap();
+                    pollster::block_on(draw(&gpu, &mut renderer, [320, 180], 2.0, antialiasing)).unwrap();
                 }
                 let costs = renderer.clock.take().unwrap().unwrap();
                 assert!(!costs.recorded.is_zero());
                 assert_eq!(costs.device.is_some(), timestamps);
                 if let Some((all, of_sraa)) = costs.device {
-                    assert_eq!(of_sraa.is_some(), sraa);
+                    assert_eq!(of_sraa.is_some(), matches!(antialiasing, Antialiasing::Sraa(_)));
                     assert!(of_sraa.is_none_or(|part| part <= all), "{costs}");
                 }
             }

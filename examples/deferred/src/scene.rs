@@ -1,7 +1,18 @@
 //! The scene: an armillary sphere on a turntable, with rings thinner than a pixel in the distance, facets, and a striped disc.
+//! A sun and the sky light it.
 
 use glam::{Vec3, vec3};
 use std::f32::consts::TAU;
+
+/// Direction towards the sun, in world space.
+pub const SUN: Vec3 = vec3(0.48, 0.64, 0.60);
+
+/// Light of the sun on a surface that faces it.
+pub const SUN_LIGHT: Vec3 = vec3(1.3, 1.15, 0.95);
+
+/// Light on surfaces that face the ground and the sky; those between have a mixture.
+pub const GROUND_LIGHT: Vec3 = vec3(0.10, 0.09, 0.08);
+pub const SKY_LIGHT: Vec3 = vec3(0.22, 0.27, 0.34);
 
 /// Position, normal and colour of one corner, as read by the vertex shader.
 pub type Corner = [Vec3; 3];

@@ -1,5 +1,6 @@
 //! Frames on the canvas of a page, and as bytes for a script.
 
+use crate::antialiasing::Choice;
 use crate::gpu::Gpu;
 use crate::options::Options;
 use crate::renderer::Renderer;
@@ -32,10 +33,10 @@ pub fn start() {
 #[wasm_bindgen]
 pub async fn picture(address: &str) -> Result<Vec<u8>, JsError> {
     let drawn = async {
-        let Options { size, time, parts, .. } = Options::of_address(address)?;
+        let Options { size, time, antialiasing, .. } = Options::of_address(address)?;
         let gpu = Gpu::headless(false).await?;
         let mut renderer = Renderer::new(&gpu.device, &gpu.queue, size, picture::FORMAT)?;
-        picture::draw(&gpu, &mut renderer, size, time.unwrap_or(2.0), parts).await
+        picture::draw(&gpu, &mut renderer, size, time.unwrap_or(2.0), antialiasing).await
     };
     drawn.await.map_err(|failure: Failure| JsError::new(&failure.to_string()))
 }
@@ -45,7 +46,9 @@ struct Screen {
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     renderer: Renderer,
-    options: Options,
+    choice: Choice,
+    /// Fixed time, in seconds.
+    time: Option<f32>,
     /// Frames that are submitted and not completed.
     under_way: Arc<AtomicU32>,
     started: Instant,
@@ -54,7 +57,7 @@ struct Screen {
 }
 
 impl Screen {
-    async fn new(canvas: HtmlCanvasElement, options: Options) -> Result<Self, Failure> {
+    async fn new(canvas: HtmlCanvasElement, options: &Options) -> Result<Self, Failure> {
         let [width, height] = options.size;
         canvas.set_width(width);
         canvas.set_height(height);
@@ -69,8 +72,17 @@ impl Screen {
         surface.configure(&gpu.device, &config);
         let renderer = Renderer::new(&gpu.device, &gpu.queue, options.size, format)?;
         let now = Instant::now();
-        let under_way = Arc::default();
-        Ok(Screen { gpu, surface, config, renderer, options, under_way, started: now, counted: (now, 0) })
+        Ok(Screen {
+            gpu,
+            surface,
+            config,
+            renderer,
+            choice: Choice::new(options.antialiasing),
+            time: options.time,
+            under_way: Arc::default(),
+            started: now,
+            counted: (now, 0),
+        })
     }
 
     fn draw(&mut self) -> Result<(), Failure> {
@@ -86,8 +98,8 @@ impl Screen {
             format: Some(self.config.format.add_srgb_suffix()),
             ..Default::default()
         });
-        let time = self.options.time.unwrap_or(self.started.elapsed().as_secs_f32());
-        self.renderer.draw(time, self.options.parts, &view)?;
+        let time = self.time.unwrap_or(self.started.elapsed().as_secs_f32());
+        self.renderer.draw(time, self.choice.now, &view)?;
         self.under_way.fetch_add(1, Ordering::Relaxed);
         let under_way = Arc::clone(&self.under_way);
         self.gpu.queue.on_submitted_work_done(move || {
@@ -95,6 +107,12 @@ impl Screen {
         });
         self.gpu.queue.present(frame);
         self.count()
+    }
+
+    /// Forgets the frames of the choice before.
+    fn restart_count(&mut self) {
+        self.renderer.clock.clear();
+        self.counted = (Instant::now(), 0);
     }
 
     /// Counts a frame, and shows the time per frame once a second.
@@ -107,7 +125,7 @@ impl Screen {
         {
             self.counted = (Instant::now(), 0);
             let each = elapsed.as_secs_f64() * 1e3 / f64::from(frames);
-            say(&format!("{}: {each:.1} ms a frame, {}; {costs}", self.options.parts, self.gpu.clock()));
+            say(&format!("{}: {each:.1} ms a frame, {}; {costs}", self.choice.now, self.gpu.clock()));
         }
         Ok(())
     }
@@ -115,23 +133,27 @@ impl Screen {
 
 async fn run() -> Result<(), Failure> {
     let options = Options::of_address(&window().location().search().unwrap_or_default())?;
+    if options.out.is_some() || options.table {
+        return Err("a page has neither `out` nor `table`".into());
+    }
     let canvas = element("canvas").and_then(|element| element.dyn_into().ok());
-    let screen = Screen::new(canvas.ok_or("the page has no <canvas>")?, options).await?;
-    say(&screen.options.parts.to_string());
+    let screen = Screen::new(canvas.ok_or("the page has no <canvas>")?, &options).await?;
+    say(&screen.choice.now.to_string());
     let screen = Rc::new(RefCell::new(screen));
-    toggle_by_keys(Rc::clone(&screen));
+    choose_by_keys(Rc::clone(&screen));
     draw_every_frame(screen);
     Ok(())
 }
 
-fn toggle_by_keys(screen: Rc<RefCell<Screen>>) {
+fn choose_by_keys(screen: Rc<RefCell<Screen>>) {
     let pressed = Closure::<dyn FnMut(_)>::new(move |event: KeyboardEvent| {
         let with_others = event.ctrl_key() || event.alt_key() || event.meta_key();
         let key = if event.key() == " " { "Space".to_owned() } else { event.key() };
         let mut screen = screen.borrow_mut();
-        if !event.repeat() && !with_others && screen.options.parts.press(&key) {
+        if !event.repeat() && !with_others && screen.choice.press(&key) {
             event.prevent_default();
-            say(&screen.options.parts.to_string());
+            screen.restart_count();
+            say(&screen.choice.now.to_string());
         }
     });
     window().set_onkeydown(Some(pressed.as_ref().unchecked_ref()));

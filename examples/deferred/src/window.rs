@@ -1,7 +1,8 @@
 //! Frames in a window.
 
+use crate::antialiasing::{Antialiasing, Choice};
 use crate::gpu::Gpu;
-use crate::options::{Options, Parts};
+use crate::options::Options;
 use crate::renderer::Renderer;
 use crate::{Failure, Size};
 use std::sync::Arc;
@@ -17,12 +18,13 @@ use winit::window::{Window, WindowId};
 
 /// Opens a window of `size` and draws until it is closed.
 pub fn run(options: &Options) -> Result<(), Failure> {
-    let events = EventLoop::new().map_err(|error| format!("{error}\nWithout a screen, draw a picture: --out FILE.png"))?;
+    let events =
+        EventLoop::new().map_err(|error| format!("{error}\nWithout a screen, draw a picture: --out FILE.png"))?;
     let mut application = Application {
         size: options.size,
         time: options.time,
         timestamps: options.timestamps,
-        parts: options.parts,
+        choice: Choice::new(options.antialiasing),
         started: Instant::now(),
         screen: None,
         counted: (Instant::now(), 0),
@@ -37,7 +39,7 @@ struct Application {
     /// Fixed time, in seconds.
     time: Option<f32>,
     timestamps: bool,
-    parts: Parts,
+    choice: Choice,
     started: Instant,
     /// Set as soon as a window can be created.
     screen: Option<Screen>,
@@ -83,7 +85,7 @@ impl Screen {
         }
     }
 
-    fn draw(&mut self, time: f32, parts: Parts) -> Result<(), Failure> {
+    fn draw(&mut self, time: f32, antialiasing: Antialiasing) -> Result<(), Failure> {
         let frame = match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(frame) | CurrentSurfaceTexture::Suboptimal(frame) => frame,
             CurrentSurfaceTexture::Outdated | CurrentSurfaceTexture::Lost => {
@@ -97,7 +99,7 @@ impl Screen {
             format: Some(self.config.format.add_srgb_suffix()),
             ..Default::default()
         });
-        self.renderer.draw(time, parts, &view)?;
+        self.renderer.draw(time, antialiasing, &view)?;
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);
         Ok(())
@@ -130,13 +132,16 @@ impl ApplicationHandler for Application {
                     Key::Character(key) => key,
                     _ => return,
                 };
-                if self.parts.press(key) {
+                if self.choice.press(key) {
+                    // Frames of the choice before do not count.
+                    screen.renderer.clock.clear();
+                    self.counted = (Instant::now(), 0);
                     self.show_state("");
                 }
             }
             WindowEvent::RedrawRequested => {
                 let time = self.time.unwrap_or(self.started.elapsed().as_secs_f32());
-                if let Err(failure) = screen.draw(time, self.parts).and_then(|()| self.count()) {
+                if let Err(failure) = screen.draw(time, self.choice.now).and_then(|()| self.count()) {
                     self.fail(events, failure);
                 }
             }
@@ -154,7 +159,7 @@ impl ApplicationHandler for Application {
 impl Application {
     fn show_state(&self, frames: &str) {
         if let Some(screen) = &self.screen {
-            screen.window.set_title(&format!("{}{frames}", self.parts));
+            screen.window.set_title(&format!("{}{frames}", self.choice.now));
         }
     }
 

@@ -54,7 +54,7 @@ const MS = /(\d+\.\d+) ms/g;
 
 test("the canvas is drawn, and the page says what a frame costs", async () => {
   const page = await open(`size=${SIZE.join("x")}&time=2`);
-  const said = await says(page, /SRAA on .* ms a frame, .* ms to record/);
+  const said = await says(page, /^guided: .* ms a frame, .* ms to record/);
   console.log(`  ${said}`);
   const times = [...said.matchAll(MS)].map((found) => Number(found[1]));
   assert.ok(times.length >= 2 && times.every((ms) => ms > 0 && ms < 10_000), said);
@@ -62,18 +62,18 @@ test("the canvas is drawn, and the page says what a frame costs", async () => {
   assert.match(said, /by the wall clock; .*processor/);
   assert.deepEqual(await page.$eval("canvas", (canvas) => [canvas.width, canvas.height]), SIZE);
 
-  await page.keyboard.press("Space");
-  await says(page, /SRAA off .* ms to record/);
-  await page.keyboard.press("d");
-  await says(page, /placing on .* demodulating off .* ms to record/);
+  for (const [key, preset] of [["Space", "none"], ["Space", "guided"], ["4", "full"], ["6", "4x"]]) {
+    await page.keyboard.press(key);
+    await says(page, new RegExp(`^${preset}: .* ms to record`));
+  }
   assert.deepEqual(page.problems, []);
   await page.close();
 });
 
 test("timestamps come without waiting", async () => {
   // The runtime's Timer on a driver whose timestamps are not worth much: what is tried is that they arrive.
-  const page = await open(`size=${SIZE.join("x")}&time=2&timestamps`);
-  const said = await says(page, /SRAA on .* ms on the GPU, .* ms of them SRAA/);
+  const page = await open(`size=${SIZE.join("x")}&time=2&preset=full&timestamps`);
+  const said = await says(page, /^full: .* ms on the GPU, .* ms of them SRAA/);
   console.log(`  ${said}`);
   const [all, sraa] = [...said.matchAll(MS)].slice(-2).map((found) => Number(found[1]));
   assert.ok(sraa > 0 && sraa <= all && all < 10_000, said);
@@ -82,12 +82,12 @@ test("timestamps come without waiting", async () => {
 });
 
 /** Mean and maximum of the differences of colours, in 8 bits, and the share of pixels that differ by more than 2. */
-async function compared(page, without, file) {
+async function compared(page, preset, file) {
   const png = (await readFile(file)).toString("base64");
   return page.evaluate(
-    async (size, without, png) => {
+    async (size, preset, png) => {
       const { picture } = await import("./deferred.js");
-      const drawn = await picture(`?size=${size.join("x")}&time=2${without}`);
+      const drawn = await picture(`?size=${size.join("x")}&time=2&preset=${preset}`);
       const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${png}`)).blob());
       const canvas = new OffscreenCanvas(...size);
       const context = canvas.getContext("2d");
@@ -112,29 +112,26 @@ async function compared(page, without, file) {
       return { mean: sum / (3 * pixels), most, beyond: beyond / pixels, colours: colours.size, same: drawn.length === native.length, bytes };
     },
     SIZE,
-    without,
+    preset,
     png,
   );
 }
 
-/** SRAA without what helps it. */
-const ALONE = "&without-placing&without-searching&without-demodulating&without-history";
-
 test("the browser's picture is the native one", async () => {
   const page = await open(`size=${SIZE.join("x")}&time=2`);
-  await says(page, /SRAA on/);
+  await says(page, /^guided/);
   for (const [driver, mean, share] of [["swiftshader", 0.01, 0], ["native", 0.5, 0.02]]) {
-    for (const [name, without] of [["", ""], ["-alone", ALONE], ["-without", "&without-sraa"]]) {
-      const file = join(pictures, `${driver}${name}.png`);
+    for (const preset of ["none", "edges", "guided"]) {
+      const file = join(pictures, `${driver}-${preset}.png`);
       if (!existsSync(file)) {
-        console.log(`  no ${driver}${name}.png: this machine's Chromium has no SwiftShader that the native example can load`);
+        console.log(`  no ${driver}-${preset}.png: this machine's Chromium has no SwiftShader that the native example can load`);
         continue;
       }
-      const { bytes, ...found } = await compared(page, without, file);
-      await writeFile(join(pictures, `browser${name}.png`), Buffer.from(bytes));
-      console.log(`  to ${driver}${name}.png: mean ${found.mean.toFixed(4)}, at most ${found.most}, ${(100 * found.beyond).toFixed(3)} % beyond 2`);
+      const { bytes, ...found } = await compared(page, preset, file);
+      await writeFile(join(pictures, `browser-${preset}.png`), Buffer.from(bytes));
+      console.log(`  to ${driver}-${preset}.png: mean ${found.mean.toFixed(4)}, at most ${found.most}, ${(100 * found.beyond).toFixed(3)} % beyond 2`);
       assert.ok(found.same && found.colours > 300, `a picture: ${JSON.stringify(found)}`);
-      assert.ok(found.mean <= mean && found.beyond <= share, `${driver}${name}: ${JSON.stringify(found)}`);
+      assert.ok(found.mean <= mean && found.beyond <= share, `${driver}-${preset}: ${JSON.stringify(found)}`);
     }
   }
   assert.deepEqual(page.problems, []);
@@ -142,7 +139,7 @@ test("the browser's picture is the native one", async () => {
 });
 
 test("what goes wrong is said", async () => {
-  for (const [query, wanted] of [["colour=red", /no option --colour/], ["size=0x4", /0x4 is not a size/]]) {
+  for (const [query, wanted] of [["preset=best", /no preset best/], ["size=0x4", /0x4 is not a size/], ["table", /neither/]]) {
     const page = await open(query);
     await says(page, wanted);
     await page.close();
