@@ -174,6 +174,7 @@ fn hard() -> HardRecord {
 fn tune() -> TuneRecord {
     let candidate = |options: &[(&str, &str)], error, ms: Option<f64>, front| Candidate {
         name: options.iter().map(|(a, b)| format!("{a} {b}")).collect(),
+        preset: None,
         options: options.iter().map(|(a, b)| (a.to_string(), b.to_string())).collect(),
         precision: "f32".to_owned(),
         math: "exact".to_owned(),

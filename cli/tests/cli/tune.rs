@@ -147,11 +147,8 @@ fn a_placed_variant_comes_with_the_shader_that_places() {
     assert_eq!(place.options["pattern"], filter.options["pattern"]);
     // As the scene was placed, whatever the filter compares.
     assert_eq!(
-        (
-            place.options["difference"].as_str(),
-            place.options["depth-scale"].as_str()
-        ),
-        ("relative", "3")
+        (place.options["metric"].as_str(), place.options["depth-scale"].as_str()),
+        ("planes-normals", "10")
     );
     for manifest in [&filter, &place] {
         assert_eq!(manifest.files.len(), 2);

@@ -12,6 +12,9 @@ use straightline_table::{Cell, Column, Table, TableBuilder};
 pub struct Candidate {
     /// Description of the variant, with each of its values: `16 samples, planes-normals, ...`.
     pub name: String,
+    /// Preset that the variant is, or that it differs from by some of its terms.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub preset: Option<String>,
     /// Options that differ from their defaults.
     pub options: Vec<OptionText>,
     /// `f16` or `f32`.

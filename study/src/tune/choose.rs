@@ -86,7 +86,6 @@ impl Search {
                 .copied()
                 .min_by(|a, b| self.loss_or_infinity(*a).total_cmp(&self.loss_or_infinity(*b))),
         );
-        which.extend(self.space.of_defaults(&self.defaults).and_then(|v| self.index.get(&v)));
         if let Some(winner) = within.first() {
             let limit = NEAR * self.entries[*winner].predicted;
             let near = self.space.neighbours(self.entries[*winner].variant);
@@ -267,6 +266,7 @@ impl Search {
         let (error, non_finite) = entry.error.unwrap_or_default();
         Candidate {
             name: self.space.variant_name(entry.variant),
+            preset: self.space.preset_name(entry.variant).map(str::to_owned),
             options: spell_settings(&options),
             precision: self.space.precision(entry.variant).to_string(),
             math: settings.math.to_string(),

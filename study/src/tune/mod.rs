@@ -35,7 +35,7 @@ use straightline_scene::render::RenderError;
 pub use cost::{Cost, Gauge};
 pub use features::{NAMES as COUNTS, Static};
 pub use search::Search;
-pub use space::{Added, Offer, SampleSet, Space, Term, Value, Variant};
+pub use space::{Added, Offer, Preset, SampleSet, Space, Term, Value, Variant};
 pub use subject::{Beyond, PATTERNS, Subject};
 
 /// PSNR of pictures whose red, green and blue are off by one step of 8 bits, root mean square: as good as equal.

@@ -74,7 +74,7 @@ impl Subject {
                 render::add_albedo(&mut capture, renderer)?;
             }
             if beyond.placing {
-                placed.extend(render::shade_placed(&capture, renderer, PlacedBy::Depths)?);
+                placed.extend(render::shade_placed(&capture, renderer, PlacedBy::Planes)?);
             }
             captures.push(capture);
             progress.step();

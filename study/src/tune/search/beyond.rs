@@ -6,6 +6,7 @@ use crate::progress::Progress;
 use crate::tune::space::Variant;
 use crate::tune::{Term, TuneError};
 use std::collections::{BTreeMap, BTreeSet};
+use straightline_codegen::Precision;
 
 /// Number of times that the neighbours of the best variants so far are looked at.
 const LOOKS: usize = 2;
@@ -36,8 +37,8 @@ impl Search {
         self.add(&wanted, progress)
     }
 
-    /// Extends what is next to the best variant, and to the one within the budget that is predicted to be cheapest. Whether
-    /// all was done.
+    /// Extends what is next to the best variant, and next to those within the budget that are predicted to be cheapest: of all
+    /// variants, and of each preset. Whether all was done.
     pub(in crate::tune) fn refine(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         for _ in 0..LOOKS {
             let known = self.entries.len();
@@ -45,9 +46,20 @@ impl Search {
             let best = usable
                 .iter()
                 .min_by(|a, b| self.loss_or_infinity(**a).total_cmp(&self.loss_or_infinity(**b)));
-            let within = usable.iter().filter(|k| self.is_within(**k));
-            let cheapest = within.min_by(|a, b| self.entries[**a].predicted.total_cmp(&self.entries[**b].predicted));
-            let around = best.into_iter().chain(cheapest);
+            let presets = self.space.preset_variants();
+            // Of no preset: all variants.
+            let mut cheapest: BTreeMap<Option<&str>, usize> = BTreeMap::new();
+            for k in usable.iter().copied().filter(|k| self.is_within(*k)) {
+                let variant = self.entries[k].variant;
+                let preset = self.space.preset_name(variant).filter(|_| presets.contains(&variant));
+                for of in BTreeSet::from([None, preset]) {
+                    let least = cheapest.entry(of).or_insert(k);
+                    if self.entries[k].predicted < self.entries[*least].predicted {
+                        *least = k;
+                    }
+                }
+            }
+            let around = best.into_iter().chain(cheapest.values());
             let wanted: Vec<Variant> = around
                 .flat_map(|k| self.space.neighbours(self.entries[*k].variant))
                 .collect();
@@ -61,10 +73,12 @@ impl Search {
         Ok(true)
     }
 
-    /// Adds those of some variants that go beyond the paper and are not known yet, with their counts, errors and
+    /// Adds those of some variants that are not among the first and are not known yet, with their counts, errors and
     /// predictions. Whether all was done.
     pub(in crate::tune) fn add(&mut self, wanted: &[Variant], progress: &mut dyn Progress) -> Result<bool, TuneError> {
-        let is_new = |v: &Variant| self.space.without_extensions(*v) != *v && !self.index.contains_key(v);
+        let is_more = |v: &Variant| v.has_preset_options() || self.space.without_extensions(*v) != *v;
+        let is_slow = |v: &Variant| self.slow_half.is_some() && self.space.precision(*v) == Precision::F16;
+        let is_new = |v: &Variant| is_more(v) && !is_slow(v) && !self.index.contains_key(v);
         let fresh: BTreeSet<Variant> = wanted.iter().copied().filter(is_new).collect();
         if fresh.is_empty() {
             return Ok(true);

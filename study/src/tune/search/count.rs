@@ -1,6 +1,6 @@
 //! Static counts of variants.
 
-use super::{Search, chunk_size};
+use super::{Entry, Search, chunk_size};
 use crate::progress::Progress;
 use crate::tune::features::Static;
 use crate::tune::space::Variant;
@@ -17,7 +17,11 @@ impl Search {
     pub(super) fn count_variants(&mut self, progress: &mut dyn Progress) -> Result<bool, TuneError> {
         // Both precisions share one graph; single pixels come before blocks, which are judged by them.
         let mut alike: BTreeMap<Variant, Vec<usize>> = BTreeMap::new();
-        let unknown = self.entries.iter().enumerate().filter(|(_, e)| e.known.is_none());
+        let unknown = self
+            .entries
+            .iter()
+            .enumerate()
+            .filter(|(_, e)| e.known.is_none() && e.refused.is_none());
         for (k, entry) in unknown {
             alike
                 .entry(entry.variant.with_value(Term::Precision, 0))
@@ -37,7 +41,17 @@ impl Search {
                 .map(|graph| (*graph, self.count_variant(*graph)))
                 .collect();
             for (graph, counted) in counted {
-                let counted = counted?;
+                let counted = match counted {
+                    // Some options of a preset go with no other value of a term.
+                    Err(TuneError::Kernel(errors)) if graph.has_preset_options() => {
+                        for k in &alike[&graph] {
+                            self.entries[*k].refused = Some(errors.first_message().to_owned());
+                        }
+                        progress.step();
+                        continue;
+                    }
+                    counted => counted?,
+                };
                 too_long += usize::from(counted.is_none());
                 for k in &alike[&graph] {
                     let half = self.space.precision(self.entries[*k].variant) == Precision::F16;
@@ -51,8 +65,9 @@ impl Search {
                 "blocks of more than {LONGEST} statements, which drivers take long to compile: {too_long} variants in each precision"
             ));
         }
-        if self.entries.iter().any(|entry| entry.known.is_none()) {
-            self.retain_entries(|entry| entry.known.is_some());
+        let is_searched = |entry: &Entry| entry.known.is_some() || entry.refused.is_some();
+        if !self.entries.iter().all(is_searched) {
+            self.retain_entries(is_searched);
         }
         Ok(true)
     }

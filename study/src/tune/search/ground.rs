@@ -2,7 +2,7 @@
 
 use crate::builtin::{Setting, parse_settings, spell_settings};
 use crate::tune::features::Static;
-use crate::tune::space::{Offer, SampleSet, Space, Variant};
+use crate::tune::space::{Offer, Preset, SampleSet, Space, Variant};
 use crate::tune::steps::depth_scale;
 use crate::tune::{Question, Subject, Term, TuneError};
 use straightline_bench::execute::{Bench, ExecuteError, Inputs, Uploaded};
@@ -85,13 +85,14 @@ impl Ground {
         });
         let place = place.transpose()?;
         if let Some((compiled, manifest)) = &place {
-            // Normals may be what no filter reads.
-            let own = gbuffer::sraa_inputs(capture, &compiled.options)?.images;
-            let missing = own
-                .into_iter()
-                .filter(|(name, _)| inputs.images.iter().all(|(known, _)| known != name));
-            let missing: Vec<_> = missing.collect();
-            inputs.images.extend(missing);
+            // Normals and the camera's rays may be what no filter reads.
+            let own = gbuffer::sraa_inputs(capture, &compiled.options)?;
+            let is_known = |name: &str| inputs.images.iter().any(|(known, _)| known == name);
+            let images: Vec<_> = own.images.into_iter().filter(|(name, _)| !is_known(name)).collect();
+            inputs.images.extend(images);
+            let is_known = |name: &str| inputs.uniforms.iter().any(|(known, _)| known == name);
+            let uniforms: Vec<_> = own.uniforms.into_iter().filter(|(name, _)| !is_known(name)).collect();
+            inputs.uniforms.extend(uniforms);
             all.push((compiled.clone(), manifest.clone()));
             all.extend(reads("placed")?);
         }
@@ -154,7 +155,14 @@ fn richest_variants(space: &Space, samples: usize) -> Vec<Variant> {
     let general = space.general().with_value(Term::Samples, samples);
     let most = |v: Variant, term: Term| v.with_value(term, space.term_values(term).len() - 1);
     let searched = most(general, Term::Search);
-    let mut all = vec![general, searched, most(searched, Term::Light)];
+    let mut all = vec![general];
+    all.extend(
+        space
+            .preset_variants()
+            .into_iter()
+            .filter(|v| v.value_index(Term::Samples) == samples),
+    );
+    all.extend([searched, most(searched, Term::Light)]);
     all.dedup();
     all
 }
@@ -202,7 +210,7 @@ fn shading_settings(space: &Space, variant: Variant, place: &str) -> Settings {
 /// placed, not as the filter does.
 fn place_options(space: &Space, samples: &crate::tune::Value) -> Vec<OptionText> {
     let given: Vec<_> = space.fixed.iter().chain(&samples.options).cloned().collect();
-    PlacedBy::Depths.instead_of(&spell_settings(&given))
+    PlacedBy::Planes.instead_of(&spell_settings(&given))
 }
 
 /// Returns the inputs of a filter of placed shading.
@@ -224,7 +232,22 @@ fn placed_inputs(inputs: &Inputs, placed: &Placed) -> Inputs {
 pub(super) fn build_offer(kernel: &Kernel, subject: &Subject, question: &Question) -> Result<Offer, TuneError> {
     let first = subject.captures.first();
     let samples = subject.captures.iter().map(|capture| sample_set(kernel, capture));
+    if question.fixed.iter().any(|(name, _)| name == "preset") {
+        let why = "the search starts from every preset: set single options, such as `search=five`";
+        return Err(TuneError::Space(why.to_owned()));
+    }
+    let preset = |preset: &straightline_kernels::Preset| {
+        let options = preset
+            .options()
+            .map(|(name, value)| (name.to_owned(), value.to_owned()));
+        Ok::<_, TuneError>(Preset {
+            name: preset.name.to_owned(),
+            options: parse_settings(kernel, &options.collect::<Vec<_>>())?,
+        })
+    };
     let mut offer = Offer {
+        presets: kernel.presets().iter().map(preset).collect::<Result<_, _>>()?,
+        defaults: kernel.option_values(&[])?,
         samples: samples.collect::<Result<_, _>>()?,
         normals: first.is_some_and(|capture| capture.normal.is_some()),
         camera: first.is_some_and(|capture| capture.camera.is_some()),

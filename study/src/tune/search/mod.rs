@@ -127,7 +127,10 @@ impl Search {
             let view = (&subject.captures[k], placed);
             grounds.push(Ground::new(bench, (&kernel, &space), place, view)?);
         }
-        let entries: Vec<Entry> = space.base_variants().into_iter().map(Entry::new).collect();
+        let mut variants = space.base_variants();
+        let presets = space.preset_variants().into_iter().filter(|v| !variants.contains(v));
+        variants.extend(presets.collect::<Vec<_>>());
+        let entries: Vec<Entry> = variants.into_iter().map(Entry::new).collect();
         Ok(Search {
             bench: bench.clone(),
             defaults: kernel.option_values(&[])?,

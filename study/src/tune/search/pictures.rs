@@ -49,7 +49,10 @@ impl Search {
             found.extend(known.map(|error| (*variant, Ok(error))));
             known.is_none()
         });
-        let apart: Vec<Variant> = apart.into_iter().collect();
+        let mut apart: Vec<Variant> = apart.into_iter().collect();
+        // First the variant without which nothing is known, then the presets.
+        let (general, presets) = (self.space.general(), self.space.preset_variants());
+        apart.sort_by_key(|v| (*v != general, !presets.contains(v)));
         progress.begin(what, apart.len());
         let mut finished = true;
         for some in apart.chunks(chunk_size()) {

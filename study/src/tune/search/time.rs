@@ -26,7 +26,7 @@ impl Search {
         let rows: Vec<Vec<f64>> = usable.iter().filter_map(|k| self.feature_row(*k)).collect();
         let general = self.space.general();
         let mut first: Vec<usize> = vec![0];
-        first.extend(self.space.of_defaults(&self.defaults).and_then(|v| self.index.get(&v)));
+        first.extend(self.space.preset_variants().iter().filter_map(|v| self.index.get(v)));
         first.extend(self.space.neighbours(general).iter().filter_map(|v| self.index.get(v)));
         first.retain(|k| usable.contains(k));
         first.sort_unstable();

@@ -1,26 +1,39 @@
 //! Space of a search: all variants of the filter, and their neighbourhood.
 
+mod presets;
 mod terms;
 
 use crate::builtin::{Setting, spell_settings};
+use presets::Start;
 use straightline_codegen::{Precision, Settings};
-use straightline_kernels::{OptionValue, OptionValues};
+use straightline_kernels::OptionValue;
 
+pub use presets::Preset;
 pub use terms::{Offer, SampleSet, Term, Value};
 
-/// Places of a variant's values in the lists of the terms, in the order of [`Term::ALL`].
+/// A variant of the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Variant(pub [usize; Term::ALL.len()]);
+pub struct Variant {
+    /// Places of its values in the lists of the terms, in the order of [`Term::ALL`].
+    values: [usize; Term::ALL.len()],
+    /// Number of the preset whose other options it has, from 1; 0 if all others have their defaults.
+    start: usize,
+}
 
 impl Variant {
     /// The place of a term's value.
     pub fn value_index(&self, term: Term) -> usize {
-        self.0[term as usize]
+        self.values[term as usize]
+    }
+
+    /// Returns whether it has options of a preset that no term varies.
+    pub fn has_preset_options(self) -> bool {
+        self.start != 0
     }
 
     /// Changes one term.
     pub fn with_value(mut self, term: Term, value: usize) -> Variant {
-        self.0[term as usize] = value;
+        self.values[term as usize] = value;
         self
     }
 }
@@ -42,6 +55,7 @@ pub struct Added {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Space {
     terms: [Vec<Value>; Term::ALL.len()],
+    starts: Vec<Start>,
     /// Options that all variants have.
     pub fixed: Vec<Setting>,
     /// Parts that are not searched, and why.
@@ -89,11 +103,14 @@ impl Space {
             terms[Term::Mask as usize].retain(|v| v.sets("mask", "none"));
             left_aside.push("mask: it would leave paint and shadow as they are".to_owned());
         }
-        Ok(Space {
+        let mut space = Space {
             terms,
+            starts: Vec::new(),
             fixed,
             left_aside,
-        })
+        };
+        space.add_presets(offer);
+        Ok(space)
     }
 
     /// Leaves but the first value of a term, and says why.
@@ -115,7 +132,10 @@ impl Space {
     /// The most general variant: of every term the value that computes most, and nothing beyond the paper that is not set.
     /// It is the first of [`base_variants`](Self::base_variants).
     pub fn general(&self) -> Variant {
-        Variant([0; Term::ALL.len()])
+        Variant {
+            values: [0; Term::ALL.len()],
+            start: 0,
+        }
     }
 
     /// Every variant that adds nothing to the most general one: all combinations but those that mean the same.
@@ -165,11 +185,14 @@ impl Space {
 
     /// Returns the representative of equivalent variants. Without a comparison of depth, its mode is irrelevant; without
     /// tests, fast mathematics has almost nothing to do. Among equivalent additions beyond the paper, the plain variant is
-    /// chosen.
+    /// chosen, except of a preset, whose mask stays.
     pub fn canonical(&self, variant: Variant) -> Variant {
-        let variant = match self.without_extensions(variant) == variant {
-            true => variant,
-            false => self.plain_variant(variant),
+        let variant = match (self.without_extensions(variant) == variant, variant.start) {
+            (true, _) => variant,
+            (false, 0) => self.plain_variant(variant),
+            // A mask would leave paint as it is, and a search is no block's.
+            (false, _) if variant.value_index(Term::Light) != 0 => self.plain_variant(variant),
+            (false, _) => variant.with_value(Term::Block, 0),
         };
         let variant = match self.variant_value(variant, Term::FiniteTest).label.as_str() {
             "no finite test" => variant.with_value(Term::Math, 0),
@@ -221,7 +244,14 @@ impl Space {
         let terms = Term::ALL.into_iter().filter(|term| self.has_effect(variant, *term));
         let block = self.variant_value(variant, Term::Block).block;
         let mut options = self.fixed.clone();
+        let start = self.starts.get(variant.start.wrapping_sub(1));
         options.extend(terms.flat_map(|term| self.variant_value(variant, term).options.iter().cloned()));
+        let unset = start.map_or(&[][..], |start| &start.options).iter();
+        let unset: Vec<Setting> = unset
+            .filter(|(name, _)| options.iter().all(|(n, _)| n != name))
+            .cloned()
+            .collect();
+        options.extend(unset);
         // The pixels of a block go the same way: there the mask selects.
         for (name, value) in &mut options {
             if name == "mask" && value.choice() == Some("branch") && block != [1, 1] {
@@ -241,8 +271,11 @@ impl Space {
         self.variant_value(variant, Term::Precision).precision
     }
 
-    /// A variant in words, term by term; what it does not add is not mentioned.
+    /// A variant in words: a preset and what is changed of it, or term by term; what is not added is not mentioned.
     pub fn variant_name(&self, variant: Variant) -> String {
+        if let Some(start) = self.start_of(variant) {
+            return self.changed_preset_name(variant, start);
+        }
         let is_said = |term: &Term| !Term::BEYOND.contains(term) || self.variant_value(variant, *term).beyond;
         let labels = Term::ALL.into_iter().filter(|term| self.has_effect(variant, *term));
         let labels = labels.filter(is_said);
@@ -250,18 +283,6 @@ impl Space {
             .map(|term| self.variant_value(variant, term).label.as_str())
             .collect();
         labels.join(", ")
-    }
-
-    /// The variant that has the kernel's defaults, if it is searched.
-    pub fn of_defaults(&self, defaults: &OptionValues) -> Option<Variant> {
-        let all_default = |value: &&Value| value.options.iter().all(|(name, v)| defaults.get(name) == Some(v));
-        let mut variant = self.general();
-        for term in Term::ALL {
-            let values = self.term_values(term);
-            let place = values.iter().position(|v| all_default(&v))?;
-            variant = variant.with_value(term, place);
-        }
-        Some(self.canonical(variant))
     }
 
     /// Returns whether a variant's pixels are shaded where the kernel `sraa_place` says.

@@ -1,9 +1,10 @@
 //! Terms of the filter and the values that each can have, the one that computes most first; of what goes beyond the paper,
 //! none first.
 
+use super::Preset;
 use crate::builtin::Setting;
 use straightline_codegen::{Math, Precision};
-use straightline_kernels::OptionValue;
+use straightline_kernels::{OptionValue, OptionValues};
 
 /// A term of a filter that can be left out, be had cheaper, or be added. `docs/tune.md` has the same table, with reasons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -124,6 +125,10 @@ pub struct Offer {
     pub no_search: Option<String>,
     /// Why light is not borrowed apart from paint and shadow, if it is not.
     pub no_light: Option<String>,
+    /// Presets of the kernel.
+    pub presets: Vec<Preset>,
+    /// Values of options that are not set.
+    pub defaults: OptionValues,
     /// Options that all variants have. One that the search varies is thereby taken out of it.
     pub fixed: Vec<Setting>,
 }

@@ -2,7 +2,7 @@ use super::*;
 use crate::builtin::{load_builtin, parse_settings};
 use std::collections::BTreeSet;
 
-fn parse_sraa(options: &[(&str, &str)]) -> Vec<Setting> {
+pub(super) fn parse_sraa(options: &[(&str, &str)]) -> Vec<Setting> {
     let options = options
         .iter()
         .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
@@ -10,7 +10,7 @@ fn parse_sraa(options: &[(&str, &str)]) -> Vec<Setting> {
     parse_settings(&kernel, &options.collect::<Vec<_>>()).expect("options of sraa")
 }
 
-fn offer() -> Offer {
+pub(super) fn offer() -> Offer {
     let set = |count: usize, pattern: &str| SampleSet {
         count,
         options: parse_sraa(&[("pattern", pattern), ("shading", "centre")]),
