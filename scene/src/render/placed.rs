@@ -7,9 +7,7 @@ use glam::{IVec2, Vec2, Vec3, Vec4, ivec2};
 use rayon::prelude::*;
 use straightline_kernels::OptionValues;
 use straightline_kernels::prelude::{Frame, FrameLayers};
-use straightline_kernels::sraa::{
-    Difference, GBuffer, History, Metric, Pattern, Projection, Sraa, View, sraa_place,
-};
+use straightline_kernels::sraa::{Difference, GBuffer, History, Metric, Pattern, Projection, Sraa, View, sraa_place};
 
 /// Offsets that differ: with this metric it is only counted how many there are.
 pub(crate) static OFFSETS: [f32; 2 * MAX_SAMPLES] = {

@@ -6,7 +6,7 @@
 use crate::capture::{Capture, ShadingSample};
 use crate::gbuffer::{self, GBufferError};
 use crate::inputs::Inputs;
-use crate::render::{self, CpuRenderer, PlacedBy, RenderError, Renderer, Shifted, gather_placed};
+use crate::render::{self, CpuRenderer, GuideLight, PlacedBy, RenderError, Renderer, Shifted, gather_placed};
 use crate::scene::{SKY_DEPTH, Scene};
 use glam::{Mat3, UVec2, Vec2, Vec3, Vec4, uvec2, vec2, vec3};
 use rayon::prelude::*;
@@ -93,7 +93,8 @@ impl Moment {
     where
         E: From<RenderError> + From<GBufferError>,
     {
-        let mut guided = self.with_more(render::add_guide)?;
+        let mut guided =
+            self.with_more(|capture, renderer| render::add_guide(capture, renderer, GuideLight::default()))?;
         guided.differences = Some(gbuffer::guide_differences(&guided.capture, options)?);
         Ok(guided)
     }

@@ -19,6 +19,9 @@ pub enum QualityError {
     /// A method was run on a picture that was not drawn for it: a bug of this program.
     #[error("nothing was drawn for {0}")]
     NotDrawn(String),
+    /// A scene in motion is seen by a camera with parallel rays.
+    #[error("motion is known of perspective cameras only: choose a scene other than `isometric`")]
+    ParallelMotion,
     /// A method was requested in motion that does not support consecutive frames.
     #[error("`{0}` is not compared in motion: 1x, SRAA that shades once a pixel, and supersampling are")]
     NotInMotion(String),

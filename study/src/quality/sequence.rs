@@ -16,7 +16,7 @@ use straightline_manifest::Manifest;
 use straightline_oracle::metrics;
 use straightline_runtime::Pass;
 use straightline_scene::capture::{Capture, ShadingSample, mean_frame};
-use straightline_scene::render::{self, CpuRenderer, PlacedBy, Renderer, Shifted};
+use straightline_scene::render::{self, CpuRenderer, GuideLight, PlacedBy, Renderer, Shifted};
 use straightline_scene::scene::Scene;
 use straightline_scene::sequence::{Moment, PLACES, motion_vectors};
 use straightline_scene::{gbuffer, picture};
@@ -78,7 +78,7 @@ impl Sequence {
     ///
     /// # Errors
     ///
-    /// [`QualityError`], if something cannot be drawn, or `progress` requests a stop.
+    /// [`QualityError`], if something cannot be drawn, the camera has parallel rays, or `progress` requests a stop.
     pub fn draw(
         scene: &Scene,
         motion: Motion,
@@ -86,6 +86,9 @@ impl Sequence {
         frames: usize,
         progress: &mut dyn Progress,
     ) -> Result<Sequence, QualityError> {
+        if scene.camera.parallel_height.is_some() {
+            return Err(QualityError::ParallelMotion);
+        }
         let (mut renderers, mut references) = (BTreeMap::new(), Vec::new());
         for frame in BEFORE..BEFORE + frames {
             let renderer = CpuRenderer::new(&motion.scene_at_frame(scene, size, frame), size)?;
@@ -174,7 +177,7 @@ impl Sequence {
             render::add_albedo(&mut capture, &moved)?;
         }
         if method.reads_guide() {
-            render::add_guide(&mut capture, &moved)?;
+            render::add_guide(&mut capture, &moved, GuideLight::default())?;
         }
         let inputs = gbuffer::sraa_inputs(&capture, &filter.compiled.options)?;
         filter.run(&with_moved_rays(inputs, &capture, jitter))

@@ -123,11 +123,9 @@ fn shown(bench: &Bench, row: &Row, basis: &[(&str, &str)], worst: bool) -> Resul
     let reference = render::render_reference(&renderer, 16, &mut |_, _| {})?;
     let drawn = |own: &[(&str, &str)]| filtered(bench, &renderer, &options(&[basis, own].concat()));
     let (without, with) = (drawn(row.without.1)?, drawn(row.with.1)?);
-    let off = |frame: &Frame<Vec4>, k: usize| {
-        (frame.texels()[k] - reference.texels()[k])
-            .clamp(Vec4::NEG_ONE, Vec4::ONE)
-            .length_squared()
-    };
+    // As displayed.
+    let shown = |frame: &Frame<Vec4>, k: usize| frame.texels()[k].clamp(Vec4::ZERO, Vec4::ONE);
+    let off = |frame: &Frame<Vec4>, k: usize| (shown(frame, k) - shown(&reference, k)).length_squared();
     let score = |k: usize| {
         if worst {
             off(&with, k)
