@@ -48,7 +48,8 @@ pub fn film_scene(
     let steps = methods.len() + shooting.frames as usize * (pan::SIDE as usize + 1);
     progress.begin("film", steps);
     let renderer = GpuRenderer::new(bench.device(), bench.queue(), scene, shooting.size)?;
-    let mut filters = Filters::new(bench, methods, shooting.size, progress)?;
+    let methods: Vec<Method> = methods.iter().map(|method| method.for_camera(&scene.camera)).collect();
+    let mut filters = Filters::new(bench, &methods, shooting.size, progress)?;
     let all: Vec<usize> = (0..methods.len()).collect();
     let mut frames = Vec::new();
     let mut see = |shown: &[Frame<Vec4>], reference: &Frame<Vec4>| {
@@ -58,7 +59,7 @@ pub fn film_scene(
         frames.push(tile_pictures(&panes));
     };
     let pan = (shooting.frames, shooting.step);
-    let mut errors = measure_changes(&renderer, methods, &all, &mut filters, pan, progress, &mut see)?;
+    let mut errors = measure_changes(&renderer, &methods, &all, &mut filters, pan, progress, &mut see)?;
     errors.iter_mut().flatten().for_each(|error| *error = error.sqrt());
     Ok(Film { frames, errors })
 }

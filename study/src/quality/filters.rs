@@ -19,7 +19,6 @@ use straightline_scene::capture::{Capture, ShadingSample};
 use straightline_scene::encode::NormalEncoding;
 use straightline_scene::gbuffer;
 use straightline_scene::picture;
-use straightline_scene::render;
 
 /// Bytes of a pixel of full floats, which pictures are read and written in.
 const PICTURE: u64 = 16;
@@ -40,7 +39,7 @@ enum Runner {
     Merged(Box<Shader>),
 }
 
-/// What a kernel is dispatched for.
+/// Area that a kernel is dispatched for.
 #[derive(Clone, Copy)]
 enum Area {
     Frame,
@@ -297,7 +296,7 @@ fn make_runner(bench: &Bench, method: &Method, size: UVec2) -> Result<Runner, Qu
                 }
             }
             if method.has_extra() {
-                let listing = render::listing_options(method.options());
+                let listing = method.listing_options()?;
                 shaders.push(Shader::new(bench, &Kernel::builtin("sraa_extra")?, &listing)?);
             }
             shaders.push(shader);

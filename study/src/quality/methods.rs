@@ -8,7 +8,7 @@ use straightline_codegen::diagnostic::Errors;
 use straightline_kernels::{OptionText, OptionValues};
 use straightline_scene::capture::{Capture, ShadingSample};
 use straightline_scene::gbuffer;
-use straightline_scene::render::PlacedBy;
+use straightline_scene::render::{self, PlacedBy};
 use straightline_scene::scene::Camera;
 
 /// Kind of a method, beyond its name.
@@ -192,7 +192,16 @@ impl Method {
 
     /// Returns the options of the kernel `sraa_place` that goes with the method.
     pub fn placing_options(&self) -> Result<Vec<OptionText>, Errors> {
-        let options = self.placed_by().instead_of(&self.options);
+        self.for_projection(self.placed_by().instead_of(&self.options))
+    }
+
+    /// Returns the options of the kernel `sraa_extra` that goes with the method.
+    pub fn listing_options(&self) -> Result<Vec<OptionText>, Errors> {
+        self.for_projection(render::listing_options(&self.options))
+    }
+
+    /// Changes options to suit the method's camera.
+    fn for_projection(&self, options: Vec<OptionText>) -> Result<Vec<OptionText>, Errors> {
         Ok(match self.parallel_height {
             Some(height) => gbuffer::in_parallel(&options, &self.parse_options(&options)?, height),
             None => options,
