@@ -53,7 +53,7 @@ pub(super) fn surface_paint(lighting: &Lighting, surface: &Surface, ray: Ray) ->
     reflected.extend(sun_visibility(lighting, surface, ray))
 }
 
-/// What a guide knows of a scene's light: each knows what those before it do.
+/// Part of a scene's light that a guide knows: each has all that those before it have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum GuideLight {
     /// The sun's diffuse light with its shadows, and one constant of ambient light for all directions.

@@ -50,7 +50,7 @@ pub struct Scene {
     pub environment: [[f32; 3]; 9],
     /// At most [`MAX_LAMPS`].
     pub lamps: Vec<Lamp>,
-    /// What casts shadows in the light of lamps and sun, whatever triangles there are. At most [`MAX_SHADES`].
+    /// Balls that cast shadows in the light of lamps and sun, whatever triangles there are. At most [`MAX_SHADES`].
     pub shades: Vec<Shade>,
     /// Camera that sees the scene.
     pub camera: Camera,

@@ -37,7 +37,7 @@ pub struct Moment {
 
 impl Moment {
     /// A scene shaded once a pixel, `jitter` from its centre or, if `placed`, at one of `samples` where geometry asks for it.
-    /// What its capture has as geometry of the centre is that at `jitter`.
+    /// The geometry that its capture has of the centre is that at `jitter`.
     ///
     /// # Errors
     ///
@@ -88,7 +88,7 @@ impl Moment {
     ///
     /// # Errors
     ///
-    /// What the renderer refuses; [`GBufferError`] if the options do not suit the capture.
+    /// The renderer's refusals; [`GBufferError`] if the options do not suit the capture.
     pub fn with_guide<E>(self, options: &OptionValues) -> Result<Moment, E>
     where
         E: From<RenderError> + From<GBufferError>,

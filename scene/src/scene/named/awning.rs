@@ -1,6 +1,6 @@
 //! Ground, a wall, steps and posts in the shadow of slats: hard edges of light on surfaces that are even.
 
-use super::{add_ball, outdoor_scene};
+use super::{add_ball, add_slabs, outdoor_scene};
 use crate::scene::mesh::Mesh;
 use crate::scene::{Material, Scene};
 use glam::{Affine3A, vec3};
@@ -8,13 +8,7 @@ use glam::{Affine3A, vec3};
 pub(super) fn build_scene() -> Scene {
     let mut mesh = Mesh::default();
     mesh.add_with_material(Material::Slats, |mesh| {
-        for x in -6..6 {
-            for z in -5..4 {
-                let corner = vec3(2.0 * x as f32, 0.0, 2.0 * z as f32);
-                let corners = [(0.0, 2.0), (2.0, 2.0), (2.0, 0.0), (0.0, 0.0)].map(|(x, z)| corner + vec3(x, 0.0, z));
-                mesh.add_polygon(&corners, vec3(0.62, 0.58, 0.50));
-            }
-        }
+        add_slabs(mesh, -6..6, -5..4, 2.0, |_, _| vec3(0.62, 0.58, 0.50));
         mesh.add_block(vec3(-9.0, 0.0, -5.6), vec3(9.0, 3.8, -5.2), vec3(0.70, 0.62, 0.50));
         for step in 0..4 {
             let (y, z) = (0.18 * step as f32, -2.4 - 0.4 * step as f32);

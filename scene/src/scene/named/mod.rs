@@ -21,6 +21,7 @@ use super::builtin::builtin_scene;
 use super::mesh::Mesh;
 use super::{Camera, Scene, SceneError, Sky, Sun, Textures};
 use glam::{Vec3, vec3};
+use std::ops::Range;
 
 /// Every built-in scene: its name, and what it is for.
 pub const NAMES: [(&str, &str); 11] = [
@@ -153,6 +154,18 @@ fn add_lawn(mesh: &mut Mesh, half: f32, color: Vec3) {
         for z in -CUTS..CUTS {
             let corner = |i: i32, j: i32| vec3(at(x + i), 0.0, at(z + j));
             mesh.add_polygon(&[corner(0, 1), corner(1, 1), corner(1, 0), corner(0, 0)], color);
+        }
+    }
+}
+
+/// Level ground of squares: one for each pair of `x` and `z`, which count them from the origin. Cut up so that no triangle is large
+/// where it passes the camera.
+fn add_slabs(mesh: &mut Mesh, x: Range<i32>, z: Range<i32>, side: f32, color: impl Fn(i32, i32) -> Vec3) {
+    for x in x {
+        for z in z.clone() {
+            let corner = side * vec3(x as f32, 0.0, z as f32);
+            let corners = [(0.0, side), (side, side), (side, 0.0), (0.0, 0.0)];
+            mesh.add_polygon(&corners.map(|(x, z)| corner + vec3(x, 0.0, z)), color(x, z));
         }
     }
 }

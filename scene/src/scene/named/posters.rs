@@ -1,14 +1,14 @@
 //! Walls, blocks and ground with dots painted on them, seen straight and at a grazing angle, posts before them.
 
-use super::{add_ball, outdoor_scene};
+use super::{add_ball, add_slabs, outdoor_scene};
 use crate::scene::mesh::Mesh;
 use crate::scene::{Material, Scene};
-use glam::{Affine3A, Vec3, vec3};
+use glam::{Affine3A, vec3};
 
 pub(super) fn build_scene() -> Scene {
     let mut mesh = Mesh::default();
     mesh.add_with_material(Material::Dots, |mesh| {
-        add_street(mesh);
+        add_slabs(mesh, -8..8, -8..4, 2.0, |_, _| vec3(0.55, 0.54, 0.50));
         mesh.add_block(vec3(-7.0, 0.0, -6.4), vec3(1.2, 3.6, -6.0), vec3(0.80, 0.74, 0.62));
         mesh.add_block(vec3(3.4, 0.0, -9.0), vec3(3.8, 3.0, 1.0), vec3(0.75, 0.42, 0.30));
         let turned = Affine3A::from_translation(vec3(-1.2, 0.0, -2.6)) * Affine3A::from_rotation_y(0.6);
@@ -29,15 +29,4 @@ pub(super) fn build_scene() -> Scene {
         vec3(0.30, 0.32, 0.34),
     );
     outdoor_scene(mesh, vec3(-0.4, 1.7, 3.6), vec3(0.3, 0.9, -3.0), 48.0)
-}
-
-/// Cut up so that no triangle is large where it passes the camera.
-fn add_street(mesh: &mut Mesh) {
-    for x in -8..8 {
-        for z in -8..4 {
-            let corner = vec3(2.0 * x as f32, 0.0, 2.0 * z as f32);
-            let corners = [(0.0, 2.0), (2.0, 2.0), (2.0, 0.0), (0.0, 0.0)].map(|(x, z)| corner + vec3(x, 0.0, z));
-            mesh.add_polygon(&corners, Vec3::new(0.55, 0.54, 0.50));
-        }
-    }
 }

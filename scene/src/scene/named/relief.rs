@@ -1,6 +1,6 @@
 //! Walls, ground, columns and a ball with studs that normals alone show, as normal maps do, from close by to far away.
 
-use super::{add_ball, outdoor_scene};
+use super::{add_ball, add_slabs, outdoor_scene};
 use crate::scene::mesh::Mesh;
 use crate::scene::{Material, Scene};
 use glam::{Affine3A, vec3};
@@ -8,13 +8,7 @@ use glam::{Affine3A, vec3};
 pub(super) fn build_scene() -> Scene {
     let mut mesh = Mesh::default();
     mesh.add_with_material(Material::Studded, |mesh| {
-        for x in -7..7 {
-            for z in -10..4 {
-                let corner = vec3(2.0 * x as f32, 0.0, 2.0 * z as f32);
-                let corners = [(0.0, 2.0), (2.0, 2.0), (2.0, 0.0), (0.0, 0.0)].map(|(x, z)| corner + vec3(x, 0.0, z));
-                mesh.add_polygon(&corners, vec3(0.44, 0.42, 0.38));
-            }
-        }
+        add_slabs(mesh, -7..7, -10..4, 2.0, |_, _| vec3(0.44, 0.42, 0.38));
         mesh.add_block(vec3(-3.4, 0.0, -12.0), vec3(-3.0, 2.6, 0.5), vec3(0.62, 0.50, 0.38));
         mesh.add_block(vec3(-3.0, 0.0, -12.4), vec3(7.0, 3.4, -12.0), vec3(0.58, 0.54, 0.46));
         let turned = Affine3A::from_translation(vec3(0.9, 0.0, -2.2)) * Affine3A::from_rotation_y(0.7);

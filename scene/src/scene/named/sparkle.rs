@@ -1,7 +1,7 @@
 //! Highlights narrower than a pixel on hammered metal, and the hard shadows of slats on a floor and a stair: edges of
 //! shading that no geometry tells of.
 
-use super::{add_ball, outdoor_scene};
+use super::{add_ball, add_slabs, outdoor_scene};
 use crate::scene::builtin::hash_noise;
 use crate::scene::mesh::Mesh;
 use crate::scene::{Material, Scene};
@@ -42,14 +42,10 @@ pub(super) fn build_scene() -> Scene {
 }
 
 fn add_floor(mesh: &mut Mesh) {
-    for x in -9..10 {
-        for z in -6..7 {
-            let corner = vec3(x as f32, 0.0, z as f32);
-            let corners = [(0.0, 1.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.0)].map(|(x, z)| corner + vec3(x, 0.0, z));
-            let tint = 0.9 + 0.16 * hash_noise((x + 40) as u32 * 64 + (z + 40) as u32);
-            mesh.add_polygon(&corners, vec3(0.60, 0.55, 0.47) * tint);
-        }
-    }
+    add_slabs(mesh, -9..10, -6..7, 1.0, |x, z| {
+        let tint = 0.9 + 0.16 * hash_noise((x + 40) as u32 * 64 + (z + 40) as u32);
+        vec3(0.60, 0.55, 0.47) * tint
+    });
 }
 
 /// Steps up to the right along the wall.

@@ -1,7 +1,7 @@
 //! Balls, posts and a wall in the light of four coloured lamps, a weak sun and an environment: rough and sharp highlights, studs
 //! that normals alone show, and shadows of several lights that cross. A cheap guide knows the sun alone.
 
-use super::{add_ball, outdoor_scene};
+use super::{add_ball, add_slabs, outdoor_scene};
 use crate::scene::mesh::Mesh;
 use crate::scene::{Lamp, Material, Scene, Shade};
 use glam::{Vec3, vec3};
@@ -91,14 +91,9 @@ const ENVIRONMENT: [[f32; 3]; 9] = [
 
 /// A floor of boards, a studded wall and a plinth along it.
 fn add_room(mesh: &mut Mesh) {
-    for x in -9..9 {
-        for z in -6..5 {
-            let corner = vec3(x as f32, 0.0, z as f32);
-            let corners = [(0.0, 1.0), (1.0, 1.0), (1.0, 0.0), (0.0, 0.0)].map(|(x, z)| corner + vec3(x, 0.0, z));
-            let tint = if (x + z) % 2 == 0 { 1.0 } else { 0.72 };
-            mesh.add_polygon(&corners, vec3(0.52, 0.47, 0.40) * tint);
-        }
-    }
+    add_slabs(mesh, -9..9, -6..5, 1.0, |x, z| {
+        vec3(0.52, 0.47, 0.40) * if (x + z) % 2 == 0 { 1.0 } else { 0.72 }
+    });
     mesh.add_with_material(Material::Studded, |mesh| {
         mesh.add_block(vec3(-8.0, 0.0, -3.0), vec3(8.0, 2.9, -2.75), vec3(0.50, 0.48, 0.45));
     });
