@@ -168,7 +168,7 @@ fn study_sources(
         .map(|camera| (projection_of(&camera), of_camera(&camera)))
         .collect();
     let mut compiled = BTreeMap::new();
-    let mut panned = 0;
+    let mut seen = 0;
     for source in sources {
         match source {
             Source::Scene { name, purpose, scene } => {
@@ -189,14 +189,15 @@ fn study_sources(
                     made,
                 };
                 let mut errors = wanted.measure_errors(listed, filters, &shot, &reference, progress)?;
-                if setup.pan_frames > 1 && panned < setup.timed_scenes {
-                    panned += 1;
+                let is_timed = seen < setup.timed_scenes;
+                seen += 1;
+                if is_timed && setup.pan_frames > 1 {
                     let found = pan::measure_pan(&renderer, listed, filters, setup.pan_frames, progress)?;
                     for (method, temporal) in errors.methods.iter_mut().zip(found) {
                         method.temporal = temporal;
                     }
                 }
-                if outcome.timed_on.len() < setup.timed_scenes {
+                if is_timed {
                     let times = time_methods(filters, &shot, setup, progress)?;
                     outcome.timed_on.push(errors.scene.clone());
                     put_times(&mut errors, &times);
@@ -244,7 +245,7 @@ fn of_capture(
     Ok(errors)
 }
 
-/// What the options of methods depend on, in a form that can be compared.
+/// Returns the part of a camera that options of methods depend on, in a form that can be compared.
 fn projection_of(camera: &Camera) -> Option<u32> {
     camera.parallel_height.map(f32::to_bits)
 }
