@@ -49,6 +49,8 @@ fn run_command(arguments: Arguments) -> Result<(), Failure> {
         #[cfg(feature = "study")]
         Command::Study(args) => commands::study::run_study(&args),
         #[cfg(feature = "study")]
+        Command::Isa(args) => commands::compilers::list_compilers(&args),
+        #[cfg(feature = "study")]
         Command::Tune(args) => commands::tune::tune_shader(&args),
         Command::Page(args) => commands::page::write_page(&args),
         Command::Resolve(args) => commands::resolve::resolve_capture(&args),
@@ -60,6 +62,7 @@ fn run_command(arguments: Arguments) -> Result<(), Failure> {
         | Command::Quads(args)
         | Command::Figures(args)
         | Command::Study(args)
+        | Command::Isa(args)
         | Command::Tune(args) => Err(args.refusal()),
         #[cfg(feature = "study")]
         Command::ServeIsa => straightline_isa::serve().map_err(Failure::from_error),

@@ -16,8 +16,8 @@ pub struct Device {
     pub properties: khr::pipeline_executable_properties::Device,
     /// The GPU's name and the driver's version.
     pub name: String,
-    /// `true` of Mesa's driver for AMD GPUs, whose figures have fields of their own.
-    pub is_radv: bool,
+    /// The driver, whose names for figures are its own.
+    pub driver: vk::DriverId,
     // Unloads the driver's library when it goes, so it goes last.
     _entry: Entry,
 }
@@ -30,12 +30,12 @@ impl Device {
         let info = vk::InstanceCreateInfo::default().application_info(&application);
         let instance = unsafe { entry.create_instance(&info, None) }.map_err(|e| format!("no Vulkan driver: {e}"))?;
         match unsafe { open_device(&instance) } {
-            Ok(Opened { device, name, is_radv }) => Ok(Device {
+            Ok(Opened { device, name, driver }) => Ok(Device {
                 properties: khr::pipeline_executable_properties::Device::new(&instance, &device),
                 instance,
                 device,
                 name,
-                is_radv,
+                driver,
                 _entry: entry,
             }),
             Err(why) => {
@@ -59,7 +59,7 @@ impl Drop for Device {
 struct Opened {
     device: ash::Device,
     name: String,
-    is_radv: bool,
+    driver: vk::DriverId,
 }
 
 unsafe fn open_device(instance: &Instance) -> Result<Opened, String> {
@@ -75,8 +75,8 @@ unsafe fn open_device(instance: &Instance) -> Result<Opened, String> {
     unsafe { instance.get_physical_device_properties2(physical, &mut about) };
     let about = about.properties;
     let text = |bytes: &[std::ffi::c_char]| unsafe { CStr::from_ptr(bytes.as_ptr()) }.to_string_lossy().into_owned();
-    let name = format!("{} ({})", text(&about.device_name), text(&driver.driver_info));
-    let is_radv = driver.driver_id == vk::DriverId::MESA_RADV;
+    let name = format!("{} ({})", text(&about.device_name).trim(), text(&driver.driver_info));
+    let driver = driver.driver_id;
     let reports_on_shaders = unsafe { instance.enumerate_device_extension_properties(physical) }
         .map_err(|e| format!("{name}: {e}"))?
         .iter()
@@ -117,6 +117,6 @@ unsafe fn open_device(instance: &Instance) -> Result<Opened, String> {
         .push_next(&mut features);
     let device = unsafe { instance.create_device(physical, &info, None) };
     device
-        .map(|device| Opened { device, name, is_radv })
+        .map(|device| Opened { device, name, driver })
         .map_err(|e| format!("no device: {e}"))
 }

@@ -52,20 +52,26 @@ impl Device {
                 let name = unsafe { CStr::from_ptr(figure.name.as_ptr()) }.to_string_lossy();
                 if figure.format == vk::PipelineExecutableStatisticFormatKHR::UINT64 {
                     let value = unsafe { figure.value.u64 };
-                    figures.record_figure(&name, value);
-                    if !self.is_radv {
-                        figures.own.insert(name.into_owned(), value);
-                    }
+                    figures.record_figure(self.driver, &name, value);
                 }
             }
-            assembly += &unsafe { self.read_assembly(&info) }?;
+            let texts = unsafe { self.read_texts(&info) }?;
+            let last = |is: fn(&str) -> bool| texts.iter().rfind(|(name, _)| is(name)).map(|(_, text)| text);
+            if let Some(text) = last(|name| name.to_lowercase().ends_with("assembly")) {
+                assembly += text;
+            }
+            if let Some(nir) = last(|name| name.contains("NIR")) {
+                figures.count_loops(nir);
+            }
         }
-        figures.count_instructions(&assembly);
+        if self.driver == vk::DriverId::MESA_RADV {
+            figures.count_instructions(&assembly);
+        }
         Ok(Report { figures, assembly })
     }
 
-    /// The machine code as text.
-    unsafe fn read_assembly(&self, info: &vk::PipelineExecutableInfoKHR) -> Result<String, vk::Result> {
+    /// Texts of a shader on its way to machine code by name, in the compiler's order.
+    unsafe fn read_texts(&self, info: &vk::PipelineExecutableInfoKHR) -> Result<Vec<(String, String)>, vk::Result> {
         let get = self
             .properties
             .fp()
@@ -81,11 +87,13 @@ impl Device {
             one.p_data = text.as_mut_ptr().cast();
         }
         unsafe { get(device, info, &mut count, all.as_mut_ptr()) }.result()?;
-        let is_assembly = |one: &vk::PipelineExecutableInternalRepresentationKHR| {
-            unsafe { CStr::from_ptr(one.name.as_ptr()) }.to_bytes() == b"Assembly"
-        };
-        let found = all.iter().zip(texts).find(|(one, _)| is_assembly(one));
-        Ok(found.map_or(String::new(), |(_, text)| String::from_utf8_lossy(&text).into_owned()))
+        let named = all.iter().zip(texts).map(|(one, text)| {
+            let name = unsafe { CStr::from_ptr(one.name.as_ptr()) }
+                .to_string_lossy()
+                .into_owned();
+            (name, String::from_utf8_lossy(&text).into_owned())
+        });
+        Ok(named.collect())
     }
 }
 

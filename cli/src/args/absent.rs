@@ -25,11 +25,11 @@ impl AbsentArgs {
     }
 }
 
-/// A GPU family to compile for. Empty: compiling for another GPU needs the feature too.
+/// A GPU to compile for. Empty: compiling for another GPU needs the feature too.
 #[derive(Clone, Copy, Debug)]
-pub enum Family {}
+pub enum Gpu {}
 
-impl FromStr for Family {
+impl FromStr for Gpu {
     type Err = &'static str;
 
     fn from_str(_: &str) -> Result<Self, Self::Err> {
@@ -71,7 +71,7 @@ mod tests {
         }
         assert!(
             "navi21"
-                .parse::<Family>()
+                .parse::<Gpu>()
                 .is_err_and(|text| text.contains("--features study"))
         );
     }

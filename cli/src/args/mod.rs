@@ -21,11 +21,11 @@ use std::path::PathBuf;
 use straightline_codegen::{Precision, ShaderSpec, shorten};
 
 #[cfg(not(feature = "study"))]
-pub use absent::Family;
+pub use absent::Gpu;
 #[cfg(not(feature = "study"))]
 use absent::{
-    AbsentArgs as BudgetArgs, AbsentArgs as FiguresArgs, AbsentArgs as QuadsArgs, AbsentArgs as StudyArgs,
-    AbsentArgs as TuneArgs,
+    AbsentArgs as BudgetArgs, AbsentArgs as CompilersArgs, AbsentArgs as FiguresArgs, AbsentArgs as QuadsArgs,
+    AbsentArgs as StudyArgs, AbsentArgs as TuneArgs,
 };
 pub use capture::{CaptureArgs, CompareArgs, PlacedByArg, ResolveArgs, ViewArgs};
 pub use check::{CheckArgs, MessageFormat};
@@ -33,10 +33,11 @@ pub use kernel::KernelArgs;
 pub use knobs::{SettingsArgs, WritingArgs};
 pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};
 #[cfg(feature = "study")]
-pub use straightline_isa::Family;
+pub use straightline_isa::Gpu;
 #[cfg(feature = "study")]
 pub use study::{
-    AllArgs, CommonArgs, ErrorArgs, FilmArgs, FrameArgs, HardArgs, IsaArgs, LoopsArgs, MotionArgs, Study, StudyArgs,
+    AllArgs, CommonArgs, CompilersArgs, ErrorArgs, FilmArgs, FrameArgs, HardArgs, IsaArgs, LoopsArgs, MotionArgs,
+    Study, StudyArgs,
 };
 #[cfg(feature = "study")]
 pub use sweep::{MergeArgs, RecordsArgs, SweepArgs};
@@ -93,6 +94,8 @@ pub enum Command {
     Scenes(ScenesArgs),
     /// List the GPUs and drivers that wgpu sees
     Adapters(AdaptersArgs),
+    /// List the GPUs that shaders can be compiled for without having them
+    Isa(CompilersArgs),
     /// Print the completion script for a shell
     Completions(CompletionsArgs),
     /// Write manual pages
@@ -151,10 +154,10 @@ pub struct ExplainArgs {
     /// Also print the graph after each stage of the pipeline, and with --isa the machine code
     #[arg(long)]
     pub dump: bool,
-    /// Also print the figures of Mesa's compiler for an AMD GPU, which need not be present: polaris10, vega10, navi10,
-    /// navi21 or navi31; or `device`, of this machine's GPU by its own driver
-    #[arg(long, value_name = "FAMILY")]
-    pub isa: Option<Family>,
+    /// Also print the figures of Mesa's compiler for a GPU, which need not be present, such as amd:navi21, nvidia:ampere or
+    /// apple:m1 (see `straightline isa`); or `device`, of this machine's GPU by its own driver
+    #[arg(long, value_name = "VENDOR:GPU")]
+    pub isa: Option<Gpu>,
     /// Also draw the texels that an invocation reads, with weights and messages, to this SVG file
     #[arg(long, value_name = "FILE.svg", value_hint = ValueHint::FilePath)]
     pub draw: Option<PathBuf>,

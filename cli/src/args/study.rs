@@ -4,8 +4,9 @@ use super::{AdapterArgs, MergeArgs, RecordsArgs, SweepArgs, size};
 use clap::{Args, Subcommand};
 use glam::{UVec2, Vec2};
 use std::path::PathBuf;
+use std::str::FromStr;
 use straightline_codegen::Precision;
-use straightline_isa::Family;
+use straightline_isa::Gpu;
 
 #[derive(Debug, Args)]
 pub struct StudyArgs {
@@ -105,10 +106,36 @@ pub struct IsaArgs {
     /// Hand-written version with loops of each --from kernel, in order
     #[arg(long, value_name = "KERNEL", requires = "from")]
     pub by_hand: Vec<String>,
-    /// AMD GPU family: polaris10, vega10, navi10, navi21 or navi31; or `device`, the GPU of this machine by its own
-    /// driver; may be given several times; by default all families
-    #[arg(long, value_name = "NAME")]
-    pub family: Vec<Family>,
+    /// GPU such as amd:navi21, or all of a vendor such as nvidia (see `straightline isa`); or `device`, the GPU of this
+    /// machine by its own driver; may be given several times; by default every GPU that this machine can compile for
+    #[arg(long, value_name = "VENDOR[:GPU]", alias = "family")]
+    pub gpu: Vec<Gpus>,
+}
+
+/// GPUs of one argument.
+#[derive(Clone, Debug)]
+pub struct Gpus(pub Vec<Gpu>);
+
+impl FromStr for Gpus {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Gpus, String> {
+        Gpu::parse_several(text).map(Gpus)
+    }
+}
+
+/// Arguments of `isa`.
+#[derive(Clone, Debug, Args)]
+pub struct CompilersArgs {
+    /// GPU such as amd:navi21, or all of a vendor such as nvidia; by default all
+    #[arg(value_name = "VENDOR[:GPU]")]
+    pub gpu: Vec<Gpus>,
+    /// List the GPUs: what the command does in any case
+    #[arg(long)]
+    pub list: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Clone, Debug, Args)]

@@ -18,9 +18,10 @@ pub struct TuneArgs {
     /// Metric of the error: psnr or flip
     #[arg(long, value_name = "METRIC", default_value = "psnr", value_parser = |s: &str| s.parse::<ErrorMetric>())]
     pub metric: ErrorMetric,
-    /// Measure of cost: time on the adapter, or isa:navi21 for cycles by Mesa's compiler
+    /// Measure of cost: time on the adapter, or isa:amd:navi21 for cycles by Mesa's compiler
     ///
-    /// The GPU need not be present: polaris10, vega10, navi10, navi21 or navi31.
+    /// The GPU need not be present; `straightline isa` lists those that can be asked about. For GPUs of other vendors than AMD
+    /// the cost is instructions, of variants without loops.
     #[arg(long, value_name = "COST", default_value_t = Cost::Time, value_parser = |s: &str| s.parse::<Cost>())]
     pub cost: Cost,
     /// Width and height of a scene or model in pixels; by default 640x360; a capture has its own size

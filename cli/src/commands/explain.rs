@@ -45,10 +45,7 @@ pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
     let described = compiled.describe(&options)?;
     let machine = match args.isa {
         None => None,
-        Some(family) => Some(machine::ask(
-            &compiled.emit(&options.targets([Target::Spirv]))?,
-            family,
-        )?),
+        Some(gpu) => Some(machine::ask(&compiled.emit(&options.targets([Target::Spirv]))?, gpu)?),
     };
     let bound = bound_names(&described);
     let features = described.features.join(", ");

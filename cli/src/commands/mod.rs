@@ -6,6 +6,8 @@ pub mod budget;
 pub mod capture;
 pub mod check;
 pub mod compare;
+#[cfg(feature = "study")]
+pub mod compilers;
 pub mod demo;
 pub mod emit;
 pub mod explain;

@@ -299,7 +299,7 @@ fn what_errors_cannot_be_measured_of_is_refused_before_any_work() {
 #[test]
 fn a_compiler_is_asked_without_its_gpu() {
     let explained = |kernel: &str| -> serde_json::Value {
-        let text = finishes(&["explain", kernel, "--isa", "navi21", "--json"]);
+        let text = finishes(&["explain", kernel, "--isa", "amd:navi21", "--json"]);
         serde_json::from_str(&text).expect("JSON")
     };
     let found = explained("sraa");
@@ -315,10 +315,36 @@ fn a_compiler_is_asked_without_its_gpu() {
 }
 
 #[test]
+fn gpus_that_can_be_compiled_for_are_listed() {
+    let listed = finishes(&["isa", "--json"]);
+    let listed: serde_json::Value = serde_json::from_str(&listed).expect("JSON");
+    let gpus = listed["gpus"].as_array().expect("a list");
+    for gpu in gpus {
+        assert!(gpu["device"].is_string() != gpu["refused"].is_string(), "{gpu}");
+    }
+    let of = |name: &str| gpus.iter().find(|gpu| gpu["gpu"] == name).expect(name);
+    let device = of("amd:navi21")["device"]
+        .as_str()
+        .expect("libvulkan1 and mesa-vulkan-drivers are installed");
+    assert!(device.to_lowercase().contains("navi21"), "{device}");
+    assert!(of("device")["refused"].is_string(), "tests run on software drivers");
+    // One line for each vendor without a driver, with what helps.
+    let text = finishes(&["isa", "--list"]);
+    assert!(text.contains("RDNA 2, 2020"), "{text}");
+    let refused = of("arm:g610")["refused"].as_str();
+    assert!(
+        refused.is_none_or(|why| why.contains("STRAIGHTLINE_DRIVERS")),
+        "{refused:?}"
+    );
+    assert!(text.matches("GPUs of Arm").count() <= 1, "{text}");
+    fails(&["isa", "matrox"], 2, &["no such GPU", "nvidia:blackwell"]);
+}
+
+#[test]
 fn compilers_are_compared_and_recorded() {
     let out = scratch("isa").join("out");
     let (out, sobel) = (out.to_str().unwrap(), format!("{}::sobel", example("sobel")));
-    let table = finishes(&["study", "isa", "--from", &sobel, "--family", "navi21", "--out", out]);
+    let table = finishes(&["study", "isa", "--from", &sobel, "--gpu", "navi21", "--out", out]);
     for row in [
         "sobel unrolled naga",
         "sobel looped naga",
@@ -336,9 +362,9 @@ fn compilers_are_compared_and_recorded() {
         assert!(Path::new(out).join(file).is_file(), "{file}");
     }
     fails(
-        &["study", "isa", "--family", "navi99", "--out", out],
+        &["study", "isa", "--gpu", "amd:navi99", "--out", out],
         2,
-        &["navi99", "navi21"],
+        &["navi99", "amd:navi21"],
     );
 }
 

@@ -81,7 +81,7 @@ fn bad_use_is_refused_before_anything_is_drawn() {
 fn variants_are_compared_by_the_cycles_of_a_compiler() {
     let run = |name: &str| {
         let out = scratch(name);
-        let words = ["--cost", "isa:navi21", "--out", out.to_str().unwrap(), "--json"];
+        let words = ["--cost", "isa:amd:navi21", "--out", out.to_str().unwrap(), "--json"];
         let scene = ["tune", "--scene", "floor", "--size", "64x36", "--max-error", "1"];
         let text = finishes(&[&scene[..], &SMALL, &words].concat());
         let manifest = std::fs::read_to_string(out.join("sraa-floor.json")).expect("a manifest");
@@ -91,7 +91,7 @@ fn variants_are_compared_by_the_cycles_of_a_compiler() {
     let (record, manifest) = run("tune-isa");
     let gpu = record.compiled_for.clone().expect("a GPU");
     assert!(gpu.to_lowercase().contains("navi21"), "{gpu}");
-    assert_eq!(record.cost, "isa:navi21");
+    assert_eq!(record.cost, "isa:amd:navi21");
     assert!(manifest.tuned.is_some_and(|tuned| tuned.adapter.starts_with(&gpu)));
     let chosen = &record.candidates[record.chosen.expect("a choice")];
     let cycles = |c: &Candidate| {
@@ -209,9 +209,13 @@ fn a_cost_that_there_is_not_is_refused() {
     fails(
         &[&words[..], &["isa:navi99"]].concat(),
         2,
-        &["no such family", "navi21"],
+        &["no such GPU", "amd:gfx1201"],
     );
-    fails(&[&words[..], &["cycles"]].concat(), 2, &["use `time`, or `isa:FAMILY`"]);
+    fails(
+        &[&words[..], &["cycles"]].concat(),
+        2,
+        &["use `time`, or `isa:VENDOR:GPU`"],
+    );
 }
 
 #[test]

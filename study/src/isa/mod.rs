@@ -11,7 +11,7 @@ use forms::emit_forms;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;
-use straightline_isa::{Compiler, Family, IsaError};
+use straightline_isa::{Compiler, Figures, Gpu, IsaError};
 
 pub use subjects::{Asking, further_askings};
 
@@ -35,15 +35,15 @@ pub enum IsaStudyError {
 /// Compilers and kernels of the study.
 #[derive(Clone, Debug)]
 pub struct Question {
-    /// GPU families; if empty, all that the driver compiles for.
-    pub families: Vec<Family>,
+    /// GPUs; if empty, all that the drivers at hand compile for.
+    pub gpus: Vec<Gpu>,
     /// Program that loads the driver, and its arguments, which make it call [`straightline_isa::serve`].
     pub program: (PathBuf, Vec<String>),
     /// glslang's executable, to compile GLSL as well.
     pub glslang: Option<PathBuf>,
 }
 
-/// Compiles each form of each kernel for each family. Returns the results so far if stopped.
+/// Compiles each form of each kernel for each GPU. Returns the results so far if stopped.
 ///
 /// # Errors
 ///
@@ -55,25 +55,11 @@ pub fn ask_compilers(
     date: String,
     progress: &mut dyn Progress,
 ) -> Result<IsaRecord, IsaStudyError> {
-    let (program, arguments) = &question.program;
-    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let start = |family: &Family| Compiler::start(program, &arguments, *family);
-    let (mut compilers, mut absent) = (Vec::new(), BTreeMap::new());
-    if question.families.is_empty() {
-        for family in Family::ALL {
-            match start(&family) {
-                Ok(compiler) => compilers.push(compiler),
-                Err(IsaError::NoDriver) => return Err(IsaError::NoDriver.into()),
-                Err(why) => drop(absent.insert(family, why.to_string())),
-            }
-        }
-    } else {
-        compilers = question.families.iter().map(start).collect::<Result<_, _>>()?;
-    }
+    let (mut compilers, absent) = question.start_compilers()?;
     let mut record = IsaRecord {
         command,
         date,
-        devices: compilers.iter().map(|c| (c.family(), c.device().to_owned())).collect(),
+        devices: compilers.iter().map(|c| (c.gpu(), c.device().to_owned())).collect(),
         absent,
         shaders: Vec::new(),
     };
@@ -96,13 +82,14 @@ pub fn ask_compilers(
             match form.module {
                 Err(why) => asked.refused = Some(why),
                 Ok(module) => {
-                    for compiler in &mut compilers {
-                        match compiler.compile(&module, &form.entry) {
-                            Ok(report) => drop(asked.figures.insert(compiler.family(), report.figures)),
-                            Err(IsaError::Shader(_, why)) => asked.refused = Some(why),
-                            Err(error) => return Err(error.into()),
+                    let mut refused = Vec::new();
+                    for (gpu, answer) in question.ask_all(&mut compilers, &module, &form.entry)? {
+                        match answer {
+                            Ok(figures) => drop(asked.figures.insert(gpu, figures)),
+                            Err(why) => refused.push(why),
                         }
                     }
+                    asked.refused = (!refused.is_empty()).then(|| refused.join("; "));
                 }
             }
             record.shaders.push(asked);
@@ -110,4 +97,66 @@ pub fn ask_compilers(
         progress.step();
     }
     Ok(record)
+}
+
+/// A GPU's figures for a shader, or the reason why there are none.
+type Answer = (Gpu, Result<Figures, String>);
+
+impl Question {
+    fn start(&self, gpu: Gpu) -> Result<Compiler, IsaError> {
+        let (program, arguments) = &self.program;
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        Compiler::start(program, &arguments, gpu)
+    }
+
+    /// Starts the compilers that were asked for, or all that there are; with these, the reasons why others are absent.
+    fn start_compilers(&self) -> Result<(Vec<Compiler>, BTreeMap<Gpu, String>), IsaStudyError> {
+        if !self.gpus.is_empty() {
+            let started: Result<_, _> = self.gpus.iter().map(|gpu| self.start(*gpu)).collect();
+            return Ok((started?, BTreeMap::new()));
+        }
+        let (mut compilers, mut absent) = (Vec::new(), BTreeMap::new());
+        let (mut without_driver, mut first) = (None, None);
+        for gpu in Gpu::all() {
+            if without_driver == Some(gpu.vendor_name()) {
+                continue;
+            }
+            match self.start(gpu) {
+                Ok(compiler) => compilers.push(compiler),
+                Err(why) => {
+                    // One line for a vendor without a driver, not one for each of its GPUs.
+                    if matches!(why, IsaError::NoDriver { .. } | IsaError::NoShim { .. }) {
+                        without_driver = Some(gpu.vendor_name());
+                    }
+                    absent.insert(gpu, why.to_string());
+                    first.get_or_insert(why);
+                }
+            }
+        }
+        match first {
+            Some(why) if compilers.is_empty() => Err(why.into()),
+            _ => Ok((compilers, absent)),
+        }
+    }
+
+    /// Asks all compilers about a shader, side by side. A compiler that ends is started again for the next shader.
+    fn ask_all(&self, compilers: &mut [Compiler], module: &[u8], entry: &str) -> Result<Vec<Answer>, IsaStudyError> {
+        let answers = std::thread::scope(|scope| {
+            let asked = compilers.iter_mut().map(|compiler| {
+                scope.spawn(move || match compiler.compile(module, entry) {
+                    Ok(report) => Ok((compiler.gpu(), Ok(report.figures))),
+                    Err(why @ IsaError::Shader(..)) => Ok((compiler.gpu(), Err(why.to_string()))),
+                    Err(why @ IsaError::Process(..)) => {
+                        *compiler = self.start(compiler.gpu())?;
+                        Ok((compiler.gpu(), Err(why.to_string())))
+                    }
+                    Err(error) => Err(error),
+                })
+            });
+            let asked: Vec<_> = asked.collect();
+            let join = |thread: std::thread::ScopedJoinHandle<'_, _>| thread.join().expect("it does not panic");
+            asked.into_iter().map(join).collect::<Result<Vec<Answer>, IsaError>>()
+        });
+        Ok(answers?)
+    }
 }

@@ -3,7 +3,7 @@
 use super::{FormKind, Record, join_options};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use straightline_isa::{Family, Figures};
+use straightline_isa::{Figures, Gpu};
 use straightline_kernels::OptionText;
 use straightline_table::{Column, Table};
 
@@ -48,7 +48,7 @@ pub struct Asked {
     #[serde(default)]
     pub alive: Option<u32>,
     /// Figures of each compiler.
-    pub figures: BTreeMap<Family, Figures>,
+    pub figures: BTreeMap<Gpu, Figures>,
     /// Reason why a compiler has no figures.
     pub refused: Option<String>,
 }
@@ -61,9 +61,9 @@ pub struct IsaRecord {
     /// Start of the run: RFC 3339, UTC.
     pub date: String,
     /// Each compiler's name for its GPU, with the driver's version.
-    pub devices: BTreeMap<Family, String>,
-    /// Families that this driver does not compile for, with the error.
-    pub absent: BTreeMap<Family, String>,
+    pub devices: BTreeMap<Gpu, String>,
+    /// GPUs that no driver at hand compiles for, with the error.
+    pub absent: BTreeMap<Gpu, String>,
     /// Every form of every kernel.
     pub shaders: Vec<Asked>,
 }
@@ -73,13 +73,8 @@ impl Record for IsaRecord {
 
     fn to_table(&self) -> Table {
         let rows = self.shaders.iter();
-        let rows = rows.flat_map(|asked| {
-            asked
-                .figures
-                .iter()
-                .map(move |(family, figures)| (asked, family, figures))
-        });
-        let in_short = Figures::default().in_short().map(|(name, _)| name);
+        let rows = rows.flat_map(|asked| asked.figures.iter().map(move |(gpu, figures)| (asked, gpu, figures)));
+        let in_short = Figures::names_in_short();
         Table::of(rows)
             .column("kernel", |(asked, ..)| &asked.kernel)
             .column(Column::exact("options"), |(asked, ..)| join_options(&asked.options))
@@ -88,15 +83,16 @@ impl Record for IsaRecord {
                 asked.path.display_name()
             })
             .column(Column::exact("alive"), |(asked, ..)| asked.alive)
-            .column(Column::exact("family"), |(_, family, _)| family.name())
+            .column(Column::exact("GPU"), |(_, gpu, _)| gpu.to_string())
             .columns(
                 Figures::default().named_figures().into_iter().enumerate(),
                 |(_, (name, _))| match in_short.contains(name) {
                     true => Column::from(*name),
                     false => Column::exact(*name),
                 },
-                |(.., figures), (k, _)| figures.named_figures()[*k].1,
+                |(.., figures), (k, _)| figures.known_figures()[*k].1,
             )
+            .column(Column::exact("loops"), |(.., figures)| figures.loops)
             .column(Column::exact("by the driver's names"), |(.., figures)| {
                 let own = figures.own.iter().map(|(name, figure)| format!("{name}: {figure}"));
                 own.collect::<Vec<_>>().join("; ")
@@ -106,13 +102,13 @@ impl Record for IsaRecord {
 }
 
 impl IsaRecord {
-    /// Returns the figures of a form of a kernel by the first family.
+    /// Returns the figures of a form of a kernel by the first GPU.
     pub fn figures(&self, kernel: &str, form: FormKind, path: SpirvPath) -> Option<&Figures> {
         let is = |asked: &&Asked| asked.kernel == kernel && asked.form == form && asked.path == path;
         self.shaders.iter().find(is)?.figures.values().next()
     }
 
-    /// Returns the figures of another form of a kernel with the same options, by naga and the first family.
+    /// Returns the figures of another form of a kernel with the same options, by naga and the first GPU.
     pub fn counterpart(&self, asked: &Asked, form: FormKind) -> Option<&Figures> {
         let is = |other: &&Asked| (&other.kernel, &other.options) == (&asked.kernel, &asked.options);
         let mut same = self.shaders.iter().filter(is);
@@ -120,12 +116,12 @@ impl IsaRecord {
         found.figures.values().next()
     }
 
-    /// Returns the record of one family alone.
-    pub fn of_family(&self, family: Family) -> IsaRecord {
+    /// Returns the record of one GPU alone.
+    pub fn of_gpu(&self, gpu: Gpu) -> IsaRecord {
         let mut own = self.clone();
         own.shaders
             .iter_mut()
-            .for_each(|asked| asked.figures.retain(|known, _| *known == family));
+            .for_each(|asked| asked.figures.retain(|known, _| *known == gpu));
         own
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Circumstances, Record, format_megabytes, join_options};
 use crate::statistics::Interval;
+use crate::tune::Cost;
 use serde::{Deserialize, Serialize};
 use straightline_bench::execute::Times;
 use straightline_kernels::OptionText;
@@ -110,7 +111,7 @@ pub struct TuneRecord {
     /// Circumstances.
     #[serde(flatten)]
     pub circumstances: Circumstances,
-    /// Measure of cost: `time`, or `isa:` and a family of GPUs whose compiler provides cycles.
+    /// Measure of cost: `time`, or `isa:` and a GPU whose compiler provides cycles or instructions.
     #[serde(default = "time")]
     pub cost: String,
     /// The GPU that is compiled for, and the compiler's version. Pictures, and therefore errors, still come from the
@@ -162,10 +163,7 @@ fn time() -> String {
 impl TuneRecord {
     /// Returns the unit of cost.
     pub fn unit(&self) -> &'static str {
-        match self.compiled_for {
-            Some(_) => "cycles",
-            None => "ms",
-        }
+        self.cost.parse().unwrap_or(Cost::Time).unit()
     }
 
     /// Returns the best error of variants that do nothing beyond the paper and whose pixels are all finite.

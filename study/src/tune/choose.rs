@@ -354,7 +354,7 @@ impl Search {
                 error: error(entry),
                 general: error(&self.entries[0]),
                 adapter: match &record.compiled_for {
-                    Some(gpu) => format!("{gpu}, by its compiler's cycles, not run"),
+                    Some(gpu) => format!("{gpu}, by its compiler's {}, not run", record.unit()),
                     None => record.circumstances.adapter.clone(),
                 },
                 speedup: entry.ratio.map_or(1.0, |ratio| ratio.median),

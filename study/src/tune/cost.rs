@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::str::FromStr;
-use straightline_isa::{Compiler, Family};
+use straightline_isa::{Compiler, Gpu};
 
 /// By what variants are compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,9 +10,9 @@ pub enum Cost {
     /// Time on the device that draws the pictures.
     #[default]
     Time,
-    /// Cycles of a wave and pixel of its invocations, as Mesa's compiler gives them for a family of AMD GPUs. Those of loops and
-    /// of what stands behind branches are guesses.
-    Isa(Family),
+    /// Cycles of a wave and pixel of its invocations, as Mesa's compiler gives them for AMD's GPUs; instructions for other
+    /// GPUs. Cycles of loops are guesses, instructions of loops are refused; what stands behind branches counts in full.
+    Isa(Gpu),
 }
 
 /// Source of the cost of variants.
@@ -24,12 +24,22 @@ pub enum Gauge {
     Compiler(Box<Compiler>),
 }
 
+impl Cost {
+    /// Unit of the cost.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Cost::Time => "ms",
+            Cost::Isa(gpu) => gpu.cost_unit(),
+        }
+    }
+}
+
 impl Gauge {
     /// As records and the command line call it.
     pub fn cost(&self) -> Cost {
         match self {
             Gauge::Device => Cost::Time,
-            Gauge::Compiler(compiler) => Cost::Isa(compiler.family()),
+            Gauge::Compiler(compiler) => Cost::Isa(compiler.gpu()),
         }
     }
 
@@ -46,7 +56,7 @@ impl fmt::Display for Cost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Cost::Time => f.write_str("time"),
-            Cost::Isa(family) => write!(f, "isa:{family}"),
+            Cost::Isa(gpu) => write!(f, "isa:{gpu}"),
         }
     }
 }
@@ -57,11 +67,11 @@ impl FromStr for Cost {
     fn from_str(text: &str) -> Result<Cost, String> {
         match text.split_once(':') {
             None if text == "time" => Ok(Cost::Time),
-            Some(("isa", "device")) => {
-                Err("this machine's own driver states no cycles: use `time`, or a family such as isa:navi21".to_owned())
-            }
-            Some(("isa", family)) => Ok(Cost::Isa(family.parse()?)),
-            _ => Err("use `time`, or `isa:FAMILY` such as isa:navi21".to_owned()),
+            Some(("isa", "device")) => Err(
+                "this machine's own driver states no cycles: use `time`, or a GPU such as isa:amd:navi21".to_owned(),
+            ),
+            Some(("isa", gpu)) => Ok(Cost::Isa(gpu.parse()?)),
+            _ => Err("use `time`, or `isa:VENDOR:GPU` such as isa:amd:navi21".to_owned()),
         }
     }
 }

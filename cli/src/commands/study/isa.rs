@@ -22,7 +22,7 @@ pub fn measure_isa(common: &CommonArgs, args: &IsaArgs, progress: &mut ProgressB
         errln!("there is no glslangValidator, so GLSL is not asked about; on Debian: apt-get install glslang-tools");
     }
     let question = Question {
-        families: args.family.clone(),
+        gpus: args.gpu.iter().flat_map(|gpus| gpus.0.clone()).collect(),
         program: (
             std::env::current_exe().map_err(Failure::from_error)?,
             vec![SERVE.to_owned()],
@@ -48,11 +48,8 @@ fn find_glslang() -> Option<PathBuf> {
 }
 
 fn print(record: &IsaRecord) {
-    for (family, device) in &record.devices {
-        outln!(
-            "{family}: {device}\n\n{}",
-            record.of_family(*family).to_table().to_text()
-        );
+    for (gpu, device) in &record.devices {
+        outln!("{gpu}: {device}\n\n{}", record.of_gpu(*gpu).to_table().to_text());
     }
     for why in record.absent.values() {
         outln!("{why}");

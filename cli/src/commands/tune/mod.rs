@@ -82,11 +82,11 @@ pub fn tune_shader(args: &TuneArgs) -> Result<(), Failure> {
 }
 
 fn open_gauge(cost: Cost) -> Result<Gauge, Failure> {
-    let Cost::Isa(family) = cost else {
+    let Cost::Isa(gpu) = cost else {
         return Ok(Gauge::Device);
     };
     let program = std::env::current_exe().map_err(Failure::from_error)?;
-    let compiler = Compiler::start(&program, &[SERVE], family).map_err(Failure::from_error)?;
+    let compiler = Compiler::start(&program, &[SERVE], gpu).map_err(Failure::from_error)?;
     Ok(Gauge::Compiler(Box::new(compiler)))
 }
 

@@ -18,7 +18,10 @@ pub fn print_report(args: &TuneArgs, record: &TuneRecord, written: &[PathBuf]) -
     let [width, height] = record.circumstances.size;
     let (scene, adapter) = (&record.scene, &record.circumstances.adapter);
     match &record.compiled_for {
-        Some(gpu) => outln!("{scene}, {width}x{height}, pictures by {adapter}; cycles by the compiler for {gpu}"),
+        Some(gpu) => outln!(
+            "{scene}, {width}x{height}, pictures by {adapter}; {} by the compiler for {gpu}",
+            record.unit()
+        ),
         None => outln!(
             "{scene}, {width}x{height}, {adapter}; {} rounds in turn",
             record.circumstances.rounds

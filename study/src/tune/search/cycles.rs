@@ -1,4 +1,4 @@
-//! Cycles of variants, as a compiler gives them for a GPU that need not be there.
+//! Cycles or instructions of variants, as a compiler gives them for a GPU that need not be there.
 
 use super::Search;
 use crate::progress::Progress;
@@ -84,6 +84,10 @@ impl Search {
         };
         let module = emitted.files.get(&Target::Spirv).map_or(&[][..], Vec::as_slice);
         let report = compiler.compile(module, &emitted.manifest.entry_point)?;
-        Ok(report.figures.inverse_throughput as f64)
+        let cost = report.figures.cost().ok_or_else(|| {
+            let why = "its compiler states no cycles, and instructions do not say how often those of a loop run";
+            IsaError::Shader(compiler.gpu(), why.to_owned())
+        })?;
+        Ok(cost as f64)
     }
 }
