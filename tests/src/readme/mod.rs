@@ -25,6 +25,7 @@ mod reached;
 mod sweep;
 mod tiles;
 mod tune;
+mod vendors;
 
 use std::path::Path;
 use straightline_study::record::Record;
@@ -94,6 +95,10 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "tiles" => Ok(tiles::cycles(&read(files, 0)?)),
         "tiles-times" => Ok(tiles::times(&read(files, 0)?)),
         "isa" => Ok(isa::cycles(&read(files, 0)?)),
+        "vendors" => vendors::loops(&read(files, 0)?),
+        "vendors-in-short" => Ok(vendors::in_short(&read(files, 0)?)),
+        "vendors-rivals" => Ok(vendors::rivals(&read(files, 0)?)),
+        "vendors-registers" => Ok(vendors::registers(&read(files, 0)?)),
         "fast" => Ok(fast::mathematics(&read(files, 0)?, &read(files, 1)?)),
         "goals" => goals::table(files),
         "reached" => reached::table(&read(files, 0)?, &read(files, 1)?),
@@ -111,7 +116,7 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "crates" => crates::needs(files),
         "sweep" => sweep::factors(&read(files, 0)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, guide-sizes, demodulated, motion, temporal, temporal-short, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, forms, workgroups, registers, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, guide-sizes, demodulated, motion, temporal, temporal-short, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, vendors, vendors-in-short, vendors-rivals, vendors-registers, forms, workgroups, registers, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }
