@@ -73,11 +73,14 @@ enum Common {
     Loops,
 }
 
+/// Drivers, and their names for the common figures.
+type NamesOf = (&'static [DriverId], &'static [(&'static str, Common)]);
+
 /// Mesa's driver for Apple's GPUs, which `ash` does not name.
 const HONEYKRISP: DriverId = DriverId::from_raw(26);
 
 /// Names of drivers for the common figures, in small letters: versions of Mesa differ in capitals and words.
-const NAMES: [(&[DriverId], &[(&str, Common)]); 7] = [
+const NAMES: [NamesOf; 7] = [
     (
         &[DriverId::MESA_RADV],
         &[
@@ -309,7 +312,10 @@ mod tests {
         assert_eq!(found, [1, 1, 2, 1, 1]);
     }
 
-    /// Figures of recorded replies: the driver's names and values, as it gave them for SRAA 4 or its like.
+    /// A driver's names and values.
+    type Reply = &'static [(&'static str, u64)];
+
+    /// Figures of a recorded reply.
     fn record(driver: DriverId, reply: &[(&str, u64)]) -> Figures {
         let mut figures = Figures::default();
         reply
@@ -331,7 +337,7 @@ mod tests {
     /// Mesa 22.3.6, 25.0.7 and 26.2.6 for AMD, 26.2.6 for the others, asked about SRAA 4.
     #[test]
     fn common_figures_are_found_in_every_drivers_reply() {
-        let replies: [(DriverId, &[(&str, u64)], [u64; 5]); 6] = [
+        let replies: [(DriverId, Reply, [u64; 5]); 6] = [
             (
                 DriverId::MESA_RADV,
                 &[

@@ -1,5 +1,6 @@
 //! Arguments of `study sweep` and of the commands that read its records.
 
+use super::study::Gpus;
 use super::{pair, size};
 use clap::{Args, ValueHint};
 use glam::UVec2;
@@ -68,6 +69,10 @@ pub struct SweepArgs {
     /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for 256 equal elements; may be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
     pub buffer: Vec<(String, String)>,
+    /// GPU to compile each variant for as well, such as amd:navi21, or all of a vendor such as nvidia (see `straightline
+    /// isa`): instructions, registers, spills and, of AMD's, cycles; may be given several times
+    #[arg(long, value_name = "VENDOR[:GPU]")]
+    pub isa: Vec<Gpus>,
     /// Stop before --rounds once the 95 % interval of every ratio is within this share of its median: 2%
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub until: Option<f64>,

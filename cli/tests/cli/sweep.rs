@@ -107,6 +107,56 @@ fn further_settings_are_varied() {
 
 /// Two shaders that are equal are recognised, and their ratio is marked as noise.
 #[test]
+fn variants_are_compiled_for_gpus_that_are_not_there() {
+    let out = scratch("sweep-isa").join("out");
+    let kernel = here("examples/sweeps/convolution.rs");
+    let more = ["--set", "radius=2,6", "--unroll", "none,full", "--isa", "amd:navi21"];
+    let table = sweep(&kernel, &out, &more);
+    for word in [
+        "amd:navi21 cycles",
+        "amd:navi21 registers",
+        "amd:navi21 loops kept",
+        "NAVI21",
+    ] {
+        assert!(table.contains(word), "`{word}` is not in {table}");
+    }
+    let record = record(&out);
+    let figure = |name: &str| -> Vec<u64> {
+        let machine = variants(&record)
+            .iter()
+            .map(|v| &v["measured"]["machine"]["amd:navi21"]);
+        machine
+            .map(|machine| machine[name].as_u64().expect("a figure"))
+            .collect()
+    };
+    // A wider filter has more of everything, and the loop costs more than its text.
+    let cycles = figure("cycles");
+    assert!(cycles[1] < cycles[0] && cycles[1] < cycles[3], "{cycles:?}");
+    assert!(figure("instructions")[1] < figure("instructions")[3]);
+    assert_eq!(figure("spilled"), [0; 4]);
+    let rows = std::fs::read_to_string(out.join("sweep.csv")).expect("a table");
+    assert!(
+        rows.lines()
+            .next()
+            .is_some_and(|head| head.contains("amd:navi21 at once")),
+        "{rows}"
+    );
+    fails(
+        &[
+            "study",
+            "sweep",
+            &kernel,
+            "--isa",
+            "navi99",
+            "--out",
+            out.to_str().unwrap(),
+        ],
+        2,
+        &["navi99", "--isa"],
+    );
+}
+
+#[test]
 fn equal_shaders_show_the_noise() {
     let folder = scratch("sweep-noise");
     let out = folder.join("out");

@@ -57,7 +57,7 @@ pub fn emit_forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>,
 }
 
 /// Translates foreign WGSL to SPIR-V by naga.
-fn by_naga(wgsl: &str) -> Result<Vec<u8>, String> {
+pub fn by_naga(wgsl: &str) -> Result<Vec<u8>, String> {
     let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
     let mut validator = naga::valid::Validator::new(Default::default(), Default::default());
     let info = validator.validate(&module).map_err(|e| e.emit_to_string(wgsl))?;

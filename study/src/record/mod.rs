@@ -33,7 +33,7 @@ pub use motion::{Motion, MotionRecord, MovedMethod, MovedScene};
 pub use quads::{QuadWay, QuadsRecord};
 pub(crate) use quality::format_decibels;
 pub use quality::{Family, Gap, MOST_DB, MethodErrors, QualityRecord, SceneErrors, Shares};
-pub use sweep::{Environment, Measured, Shard, SweepRecord, Swept};
+pub use sweep::{Environment, MachineFigures, Measured, Shard, SweepRecord, Swept};
 pub use tune::{Candidate, LeftOut, Model, Refused, TermWorth, TuneRecord};
 
 /// Circumstances of a measurement, without which its numbers have no meaning.

@@ -6,6 +6,7 @@ use crate::sweep::Axis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use straightline_isa::Figures;
 use straightline_table::{Cell, Column, Table, TableBuilder};
 
 /// Environment of a sweep, beyond its circumstances.
@@ -45,7 +46,65 @@ pub struct Measured {
     pub difference: f64,
     /// Largest difference without the thousandth of the pixels that differ most.
     pub difference_999: f64,
+    /// Figures of the compilers that were asked, by the GPU's name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub machine: BTreeMap<String, MachineFigures>,
 }
+
+/// A GPU compiler's figures for a shader, or the reason why there are none.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct MachineFigures {
+    /// All instructions.
+    pub instructions: u64,
+    /// Registers of a lane, as the compiler counts them.
+    pub registers: u64,
+    /// Waves, warps, threads or lanes at once.
+    pub at_once: u64,
+    /// Registers that did not fit and lie in memory.
+    pub spilled: u64,
+    /// Cycles of a wave among many, of compilers that state them. Those of loops are guesses.
+    pub cycles: Option<u64>,
+    /// Loops that the compiler kept, of compilers that say it.
+    pub loops: Option<u64>,
+    /// Reason why there are no figures.
+    pub refused: Option<String>,
+}
+
+impl From<&Figures> for MachineFigures {
+    fn from(figures: &Figures) -> MachineFigures {
+        MachineFigures {
+            instructions: figures.instructions,
+            registers: figures.vector_registers,
+            at_once: figures.occupancy,
+            spilled: figures.spilled,
+            cycles: Some(figures.inverse_throughput).filter(|cycles| *cycles > 0),
+            loops: figures.loops,
+            refused: None,
+        }
+    }
+}
+
+impl MachineFigures {
+    /// Figures that there are not.
+    pub fn refused(why: String) -> MachineFigures {
+        MachineFigures {
+            refused: Some(why),
+            ..MachineFigures::default()
+        }
+    }
+}
+
+/// A column of a compiler's figures: its title, whether readers see it, and the figure.
+type MachineColumn = (&'static str, bool, fn(&MachineFigures) -> Option<u64>);
+
+const MACHINE_COLUMNS: [MachineColumn; 6] = [
+    ("instructions", true, |of| Some(of.instructions)),
+    ("cycles", true, |of| of.cycles),
+    ("registers", true, |of| Some(of.registers)),
+    ("at once", false, |of| Some(of.at_once)),
+    ("spilled", false, |of| Some(of.spilled)),
+    ("loops kept", true, |of| of.loops),
+];
 
 /// A variant: its measurements, or the reason why there are none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -98,6 +157,9 @@ pub struct SweepRecord {
     pub until: Option<f64>,
     /// Part of the sweep; `None` for a whole sweep.
     pub shard: Option<Shard>,
+    /// Compilers that were asked: each GPU's name, and the driver's name for it with its version.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub compilers: BTreeMap<String, String>,
     /// All variants.
     pub variants: Vec<Swept>,
 }
@@ -183,6 +245,17 @@ impl SweepRecord {
         }))
     }
 
+    /// Columns of each compiler that was asked; those that no variant has a figure for are left out.
+    fn machine_columns(&self) -> Vec<(&str, MachineColumn)> {
+        let has = |gpu: &str, figure: fn(&MachineFigures) -> Option<u64>| {
+            let mut measured = self.variants.iter().filter_map(|variant| variant.measured.as_ref());
+            measured.any(|measured| measured.machine.get(gpu).and_then(figure).is_some())
+        };
+        let each = self.compilers.keys();
+        let each = each.flat_map(|gpu| MACHINE_COLUMNS.map(|column| (gpu.as_str(), column)));
+        each.filter(|(gpu, (.., figure))| has(gpu, *figure)).collect()
+    }
+
     /// Returns a table of variants: their axes, columns of the caller's, and their measurements.
     fn tabulate<'r, R>(
         &'r self,
@@ -222,6 +295,17 @@ impl SweepRecord {
             .column(("off_f64_largest", "largest"), |row| {
                 measured(row).map(|of| Cell::scientific(of.difference, 1))
             })
+            .columns(
+                self.machine_columns(),
+                |(gpu, (title, is_shown, _))| match is_shown {
+                    true => Column::from(format!("{gpu} {title}")),
+                    false => Column::exact(format!("{gpu} {title}")),
+                },
+                |row, (gpu, (.., figure))| {
+                    let figures = measured(row)?.machine.get(*gpu)?;
+                    figures.refused.is_none().then(|| figure(figures))?
+                },
+            )
             .column(Column::exact("hash"), |row| Some(&measured(row)?.hash))
             .column(Column::exact("refused"), |row| variant(row).refused.clone())
             .finish()

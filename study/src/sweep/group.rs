@@ -1,5 +1,6 @@
 //! Variants that are compared with each other: made, checked and timed in turn.
 
+use super::machine::ask_compilers;
 use super::{Give, Loops, Sweep, SweepError, Variant};
 use crate::loops::truth;
 use crate::progress::Progress;
@@ -12,6 +13,7 @@ use std::rc::Rc;
 use straightline_bench::execute::{Bench, ExecuteError, Inputs, Job, Uploaded, Uploads, Work, interpret_kernel};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{Compiled, Settings, Unroll};
+use straightline_isa::Compiler;
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::hash_of_text;
 use straightline_runtime::{Pass, PassOptions};
@@ -37,6 +39,7 @@ pub fn measure_group(
     bench: &Bench,
     group: &[Variant],
     give: &Give<'_>,
+    compilers: &mut [Compiler],
     progress: &mut dyn Progress,
 ) -> Result<Option<Vec<Swept>>, SweepError> {
     let mut swept: Vec<Swept> = group
@@ -110,11 +113,10 @@ pub fn measure_group(
     };
     let base = ready.iter().position(|ready| Some(ready.at) == baseline);
     for (k, ready) in ready.iter().enumerate() {
-        swept[ready.at].measured = Some(measured_figures(
-            ready,
-            &rounds[k],
-            base.map(|base| rounds[base].as_slice()),
-        ));
+        let base = base.map(|base| rounds[base].as_slice());
+        let mut measured = measured_figures(ready, &rounds[k], base);
+        measured.machine = ask_compilers(compilers, &ready.emitted)?;
+        swept[ready.at].measured = Some(measured);
     }
     Ok(Some(swept))
 }
@@ -252,5 +254,6 @@ fn measured_figures(ready: &Ready, rounds: &[f64], base: Option<&[f64]>) -> Meas
         speedup: base.and_then(|base| Interval::of_ratio(base, rounds)),
         difference: ready.difference,
         difference_999: ready.difference_999,
+        machine: BTreeMap::new(),
     }
 }

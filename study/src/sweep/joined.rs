@@ -62,7 +62,7 @@ fn describe_sides(sides: &[(String, Vec<String>)]) -> String {
 }
 
 /// Names and values that must be the same in records that are put together.
-fn shared_properties(record: &SweepRecord) -> [(&'static str, String); 12] {
+fn shared_properties(record: &SweepRecord) -> [(&'static str, String); 13] {
     let axes = record.axes.iter();
     let axes = axes.map(|axis| format!("{}={}", axis.name, axis.values.join(",")));
     let (circumstances, environment) = (&record.circumstances, &record.environment);
@@ -79,6 +79,7 @@ fn shared_properties(record: &SweepRecord) -> [(&'static str, String); 12] {
         ("values of --until", until.unwrap_or_else(|| "none".to_owned())),
         ("adapters", circumstances.adapter.clone()),
         ("processors", circumstances.processor.clone()),
+        ("compilers", format!("{:?}", record.compilers)),
         ("generators", environment.generator.clone()),
         ("commits", commit.unwrap_or("none").to_owned()),
     ]

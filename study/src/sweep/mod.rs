@@ -6,6 +6,7 @@
 
 mod group;
 mod joined;
+mod machine;
 mod rival;
 mod space;
 
@@ -15,6 +16,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 use straightline_bench::execute::{Bench, ExecuteError, Inputs};
 use straightline_codegen::{Compiled, Kernel};
+use straightline_isa::{Compiler, IsaError};
 
 pub use joined::{Compared, JoinError, compare_records, join_shards};
 pub use rival::Rival;
@@ -53,6 +55,9 @@ pub enum SweepError {
     /// The device failed.
     #[error(transparent)]
     Execute(#[from] ExecuteError),
+    /// A compiler ended.
+    #[error(transparent)]
+    Compiler(#[from] IsaError),
     /// Nothing could be measured.
     #[error("none of {variants} variants could be made and run; the first: {why}")]
     Nothing {
@@ -120,17 +125,18 @@ impl Sweep {
             .all(|(name, value)| settings.get(name) == Some(value))
     }
 
-    /// Measures group by group; what a variant reads is given by `give`. Stopped by `watch`, it has the groups that were
+    /// Measures group by group; what a variant reads is given by `give`, and `compilers` are asked about each. Stopped by `watch`, it has the groups that were
     /// measured until then.
     ///
     /// # Errors
     ///
-    /// Those of [`groups`](Self::groups) and of `give`; [`SweepError::Nothing`]. A variant that is refused is in the result,
+    /// Those of [`groups`](Self::groups) and of `give`; [`SweepError::Nothing`]; a compiler ended. A variant that is refused is in the result,
     /// with the reason.
     pub fn measure(
         &self,
         bench: &Bench,
         give: &Give<'_>,
+        compilers: &mut [Compiler],
         progress: &mut dyn Progress,
     ) -> Result<Vec<Swept>, SweepError> {
         let groups = self.groups()?;
@@ -145,7 +151,7 @@ impl Sweep {
             }
             let label = format!("{} {} of {count}", self.kernel.name(), k + 1);
             progress.begin(&label, group.len() + self.rivals.len() + 1 + self.rounds as usize);
-            match group::measure_group(self, bench, group, give, progress)? {
+            match group::measure_group(self, bench, group, give, compilers, progress)? {
                 Some(swept) => all.extend(swept),
                 None => break,
             }

@@ -4,6 +4,7 @@ mod environment;
 mod given;
 mod print;
 
+use super::isa::SERVE;
 use super::{ProgressBars, circumstances_of};
 use crate::args::{CommonArgs, MergeArgs, RecordsArgs, SweepArgs};
 use crate::failure::{Failure, format_count};
@@ -12,6 +13,7 @@ use given::Given;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel};
+use straightline_isa::Compiler;
 use straightline_manifest::hash_of_text;
 use straightline_study::progress::Progress;
 use straightline_study::record::{Record, Shard, SweepRecord};
@@ -48,7 +50,10 @@ pub fn measure_sweep(common: &CommonArgs, args: &SweepArgs, progress: &mut Progr
     let size = given.picture_size(&compiled[0])?;
     let gpu = Gpu::require(&common.adapter)?;
     let give = |compiled: &Compiled| given.variant_inputs(compiled).map_err(to_sweep_error);
-    let variants = sweep.measure(&gpu.bench(), &give, progress).map_err(to_failure)?;
+    let mut compilers = start_compilers(args)?;
+    let variants = sweep
+        .measure(&gpu.bench(), &give, &mut compilers, progress)
+        .map_err(to_failure)?;
     let mut circumstances = circumstances_of(&gpu, size, common.timing_rounds());
     circumstances.complete = !progress.is_stopped();
     let record = SweepRecord {
@@ -68,6 +73,10 @@ pub fn measure_sweep(common: &CommonArgs, args: &SweepArgs, progress: &mut Progr
         baseline: sweep.baseline,
         until: args.until,
         shard: args.shard,
+        compilers: compilers
+            .iter()
+            .map(|compiler| (compiler.gpu().to_string(), compiler.device().to_owned()))
+            .collect(),
         variants,
     };
     progress.clear_bar();
@@ -75,6 +84,14 @@ pub fn measure_sweep(common: &CommonArgs, args: &SweepArgs, progress: &mut Progr
     print::print_record(&record);
     print_paths(common);
     check_complete(&record, args.shard)
+}
+
+/// Starts the compilers that are asked about each variant.
+fn start_compilers(args: &SweepArgs) -> Result<Vec<Compiler>, Failure> {
+    let program = std::env::current_exe().map_err(Failure::from_error)?;
+    let gpus = args.isa.iter().flat_map(|gpus| gpus.0.iter());
+    gpus.map(|gpu| Compiler::start(&program, &[SERVE], *gpu).map_err(Failure::from_error))
+        .collect()
 }
 
 /// Fails for an interrupted record, so that an engine which runs shards takes this one again.

@@ -37,6 +37,9 @@ pub fn print_record(record: &SweepRecord) {
         base.join(" ")
     );
     outln!("{}", describe_noise(record.noise()));
+    for (gpu, device) in &record.compilers {
+        outln!("{gpu}: compiled for {device}, not run there");
+    }
     let axes = record.varied_axes();
     for variant in &record.variants {
         if let Some(why) = &variant.refused {
@@ -46,6 +49,12 @@ pub fn print_record(record: &SweepRecord) {
                 .collect();
             what.extend(variant.rival.clone());
             outln!("not measured, {}: {why}", what.join(" "));
+        }
+        let machine = variant.measured.iter().flat_map(|measured| &measured.machine);
+        for (gpu, figures) in machine {
+            if let Some(why) = &figures.refused {
+                outln!("{gpu} refuses {:?}: {why}", variant.settings);
+            }
         }
     }
 }
