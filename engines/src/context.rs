@@ -1,12 +1,15 @@
 //! Context of templates: a kernel's name, the resources that it binds, and its shaders.
 
+use crate::description::{Description, MeaningSource};
 use crate::fits;
+use crate::inputs::{Inputs, whole_name};
+use crate::meaning::{Holds, MEANINGS, Meaning};
 use crate::spelling;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use straightline_codegen::emit::single_line_comment;
+use straightline_codegen::emit::{Target, single_line_comment};
 use straightline_codegen::{OptionInfo, OptionKind};
-use straightline_manifest::{BindingKind, Extent, LanguageBinding, LanguageKind, Manifest, SamplerType};
+use straightline_manifest::{BindingKind, Extent, LanguageBinding, LanguageKind, Manifest, SamplerType, UniformField};
 
 /// Documentation of the uniform with the target's size.
 const SIZE_DOCS: &str = "Width and height of the target, in pixels.";
@@ -30,15 +33,22 @@ pub struct Context {
     pub engine: String,
     /// Textures, in order of binding.
     pub textures: Vec<TextureContext>,
-    /// The texture that is filtered: the one called `color`, or else the first two-dimensional one of the output's size, or else
-    /// the first.
+    /// The texture that is filtered, if the kernel reads it: the one with the meaning `color`.
     pub picture: Option<TextureContext>,
+    /// Textures in the engine's textures: without those that it converts.
+    pub given: Vec<TextureContext>,
+    /// Textures that the user sets, in order of binding.
+    pub own: Vec<TextureContext>,
     /// Samplers, in order of binding.
     pub samplers: Vec<SamplerContext>,
     /// Uniforms, in order of offset.
     pub uniforms: Vec<UniformContext>,
     /// The uniform with the target's width and height, if the templates fill it.
     pub resolution: Option<UniformContext>,
+    /// Inputs beside the picture that the engine provides by their meanings.
+    pub provided: Vec<ProvidedContext>,
+    /// Every meaning by name: true if the kernel reads it.
+    pub meanings: BTreeMap<&'static str, bool>,
     /// The buffer that uniforms lie in where the language has one.
     pub block: Option<BlockContext>,
     /// Values computed for a pixel.
@@ -49,6 +59,19 @@ pub struct Context {
     pub shader: Option<ShaderContext>,
     /// Options that differ from their defaults, as the command line has them: `radius=4`.
     pub changed: Vec<String>,
+}
+
+/// An input that the engine provides.
+#[derive(Clone, Debug, Serialize)]
+pub struct ProvidedContext {
+    /// Name in the kernel.
+    pub name: String,
+    /// Name of the meaning.
+    pub meaning: &'static str,
+    /// Value, with its unit and its space.
+    pub docs: &'static str,
+    /// Source in the engine.
+    pub stored: String,
 }
 
 /// A texture.
@@ -74,6 +97,10 @@ pub struct TextureContext {
     pub hlsl: String,
     /// True if the texture has the output's size.
     pub framed: bool,
+    /// Name of the meaning, if the engine provides it.
+    pub meaning: Option<&'static str>,
+    /// True if the user sets it.
+    pub own: bool,
 }
 
 /// A sampler.
@@ -93,6 +120,8 @@ pub struct SamplerContext {
 pub struct UniformContext {
     /// Name in the kernel.
     pub name: String,
+    /// Name of the matrix or array that it is a part of, or its own.
+    pub of: String,
     /// Purpose in the kernel's words, harmless in a comment of any language; or nothing.
     pub docs: String,
     /// Name in the shaders: that of the kernel, unless it is reserved in a language or the engine.
@@ -152,12 +181,15 @@ pub struct ShaderContext {
     pub text: String,
     /// Name of the entry point or function.
     pub function: String,
-    /// Combined samplers of the languages of OpenGL.
+    /// Combined samplers of the languages of OpenGL. Where the shader reads by functions, those that the functions need for
+    /// textures that the engine does not convert.
     pub combined: Vec<CombinedContext>,
     /// Arguments of a function, in order.
     pub arguments: Vec<ArgumentContext>,
     /// Functions that a template defines before the text, where the shader reads by them.
     pub reads: Vec<ReadContext>,
+    /// Uniforms that the engine provides, where the shader reads uniforms by name.
+    pub globals: Vec<GlobalContext>,
     /// Invocations of a workgroup, of a compute shader.
     pub workgroup: Option<[u32; 3]>,
     /// The manifest of this text, as `emit --target` writes it.
@@ -182,12 +214,23 @@ pub struct CombinedContext {
 /// An argument of a function.
 #[derive(Clone, Debug, Serialize)]
 pub struct ArgumentContext {
-    /// `texture`, `sampler`, `position`, `varying`, `resolution` or `uniform`.
+    /// `texture`, `sampler`, `position`, `varying`, `resolution`, `meaning` or `uniform`.
     pub kind: &'static str,
     /// Name in the function.
     pub name: String,
     /// Name in the kernel.
     pub of: String,
+    /// Expression of `engine.toml`, of a `meaning`.
+    pub expression: Option<String>,
+}
+
+/// A uniform that the engine provides to a shader by name.
+#[derive(Clone, Debug, Serialize)]
+pub struct GlobalContext {
+    /// Name in the shader.
+    pub name: String,
+    /// Expression of `engine.toml`.
+    pub expression: String,
 }
 
 /// A function that reads a texture for the shader.
@@ -201,10 +244,14 @@ pub struct ReadContext {
     pub spelled: String,
     /// `load`, `sample` or `size`.
     pub does: &'static str,
+    /// Name of the texture's meaning, if the engine converts it.
+    pub meaning: Option<&'static str>,
+    /// Four components at `pixel`, if the engine converts the texture.
+    pub expression: Option<String>,
 }
 
 /// Textures of a manifest.
-pub fn texture_contexts(manifest: &Manifest) -> Vec<TextureContext> {
+pub fn texture_contexts(manifest: &Manifest, inputs: &Inputs) -> Vec<TextureContext> {
     let each = manifest.bindings.iter().filter_map(|binding| match &binding.kind {
         BindingKind::Texture {
             dimension,
@@ -228,6 +275,8 @@ pub fn texture_contexts(manifest: &Manifest) -> Vec<TextureContext> {
             holds: fits::texel_type_name(*sample_type),
             hlsl: spelling::hlsl_texture(*dimension, *sample_type),
             framed: *extent == Extent::Output,
+            meaning: inputs.meaning(&binding.name).map(|meaning| meaning.name),
+            own: inputs.meaning(&binding.name).is_none(),
         }),
         _ => None,
     });
@@ -251,13 +300,32 @@ fn spelled_texture(manifest: &Manifest, name: &str) -> String {
 
 /// The texture that is filtered.
 pub fn filtered_texture(textures: &[TextureContext]) -> Option<TextureContext> {
-    let named = || textures.iter().find(|texture| texture.name == "color");
-    let framed = || {
-        textures
-            .iter()
-            .find(|texture| texture.framed && texture.shape == "2d" && texture.holds == "float")
-    };
-    named().or_else(framed).or_else(|| textures.first()).cloned()
+    let mut all = textures.iter();
+    all.find(|texture| texture.meaning.and_then(Meaning::find).is_some_and(Meaning::is_picture))
+        .cloned()
+}
+
+/// Inputs that an engine provides beside the picture.
+pub fn provided_contexts(inputs: &Inputs, description: &Description) -> Vec<ProvidedContext> {
+    let beside = inputs.iter().filter(|(_, meaning)| !meaning.is_picture());
+    let each = beside.filter_map(|(name, meaning)| {
+        Some(ProvidedContext {
+            name: name.to_owned(),
+            meaning: meaning.name,
+            docs: meaning.doc,
+            stored: description.meanings.get(meaning.name)?.stored.clone(),
+        })
+    });
+    each.collect()
+}
+
+/// Every meaning, and whether the kernel reads it.
+pub fn used_meanings(inputs: &Inputs) -> BTreeMap<&'static str, bool> {
+    let is_used = |meaning: &Meaning| inputs.iter().any(|(_, used)| used == meaning);
+    MEANINGS
+        .iter()
+        .map(|meaning| (meaning.name, is_used(meaning)))
+        .collect()
 }
 
 /// Samplers of a manifest.
@@ -318,6 +386,7 @@ pub fn uniform_contexts(manifest: &Manifest, options: &[OptionInfo]) -> (Vec<Uni
         let spelled = bindings.find(|b| is_uniform(b.kind) && b.of.as_ref() == Some(&field.name));
         UniformContext {
             name: field.name.clone(),
+            of: whole_name(field).to_owned(),
             spelled: spelled.map_or(&field.name, |b| &b.name).clone(),
             docs: match field.frame_size {
                 true => SIZE_DOCS.to_owned(),
@@ -357,9 +426,77 @@ pub fn output_contexts(manifest: &Manifest) -> Vec<OutputContext> {
     each.collect()
 }
 
-/// A shader, by its manifest; whether it takes uniforms, or has them declared before it; whether templates fill in the
-/// target's size.
-pub fn shader_context(text: String, takes_uniforms: bool, fills_size: bool, manifest: &Manifest) -> ShaderContext {
+/// Circumstances of a shader in its engine.
+pub struct ShaderScope<'a> {
+    /// Name in `engine.toml`.
+    pub name: &'a str,
+    /// `true` if it takes uniforms, `false` if they are declared before it.
+    pub takes_uniforms: bool,
+    /// `true` if the templates fill in the target's size.
+    pub fills_size: bool,
+    /// Language.
+    pub target: Target,
+    /// Inputs that the engine provides.
+    pub inputs: &'a Inputs,
+    /// Their sources.
+    pub meanings: &'a BTreeMap<String, MeaningSource>,
+}
+
+impl ShaderScope<'_> {
+    /// Returns the expression of an input that the engine provides; of a matrix, that of a column.
+    fn expression(&self, input: &str, column: Option<u32>) -> Option<(&'static Meaning, String)> {
+        let meaning = self.inputs.meaning(input)?;
+        let expression = self.meanings.get(meaning.name)?.expressions.get(self.name)?;
+        let column = column.unwrap_or_default().to_string();
+        Some((meaning, expression.replace("{column}", &column)))
+    }
+
+    /// Returns the expression of a uniform.
+    fn uniform(&self, manifest: &Manifest, field: &str) -> Option<String> {
+        let field = uniform_fields(manifest).iter().find(|other| other.name == field)?;
+        let column = field.part.as_ref().map(|part| part.index);
+        let (meaning, expression) = self.expression(whole_name(field), column)?;
+        let ty = match self.target {
+            Target::Wgsl => field.ty.to_string(),
+            Target::Hlsl => spelling::hlsl_type(field.ty),
+            _ => spelling::glsl_type(field.ty),
+        };
+        Some(match meaning.holds {
+            Holds::Count => format!("{ty}({expression})"),
+            _ => expression,
+        })
+    }
+
+    /// Returns four components of a converted texture at `pixel`.
+    fn texel(&self, texture: &str) -> Option<(&'static str, String)> {
+        let (meaning, expression) = self.expression(texture, None)?;
+        let vector = match self.target {
+            Target::Wgsl => "vec4f",
+            Target::Hlsl => "float4",
+            _ => "vec4",
+        };
+        let rest = match meaning.holds {
+            Holds::Texels(0 | 1) => ", 0.0, 0.0, 1.0",
+            Holds::Texels(2) => ", 0.0, 1.0",
+            Holds::Texels(3) => ", 1.0",
+            _ => return None,
+        };
+        Some((meaning.name, format!("{vector}({expression}{rest})")))
+    }
+}
+
+/// Fields of the uniform buffer.
+fn uniform_fields(manifest: &Manifest) -> &[UniformField] {
+    let mut fields = manifest.bindings.iter().filter_map(|binding| match &binding.kind {
+        BindingKind::Uniform { fields, .. } if !binding.is_region() => Some(&fields[..]),
+        _ => None,
+    });
+    fields.next().unwrap_or_default()
+}
+
+/// A shader, by its manifest.
+pub fn shader_context(text: String, manifest: &Manifest, scope: &ShaderScope<'_>) -> ShaderContext {
+    let (takes_uniforms, fills_size) = (scope.takes_uniforms, scope.fills_size);
     let size = size_name(manifest);
     let is_size = |b: &LanguageBinding| size.is_some() && b.of.as_deref() == size;
     let bindings = &manifest.language_bindings;
@@ -406,30 +543,74 @@ pub fn shader_context(text: String, takes_uniforms: bool, fills_size: bool, mani
             b.of.clone()
                 .or_else(|| b.texture.clone())
                 .unwrap_or_else(|| b.name.clone());
+        let expression = match kind {
+            "uniform" => scope.uniform(manifest, &of),
+            "texture" if scope.inputs.is_converted(&of) => scope.expression(&of, None).map(|(_, text)| text),
+            _ => None,
+        };
         Some(ArgumentContext {
-            kind,
+            kind: if expression.is_some() { "meaning" } else { kind },
             name: b.name.clone(),
             of,
+            expression,
+        })
+    });
+    let globals = bindings
+        .iter()
+        .filter(|b| b.kind == LanguageKind::Uniform && !takes_uniforms);
+    let globals = globals.filter_map(|b| {
+        let expression = scope.uniform(manifest, b.of.as_deref()?)?;
+        Some(GlobalContext {
+            name: b.name.clone(),
+            expression,
         })
     });
     let reads = bindings.iter().filter(|b| b.kind == LanguageKind::Function);
-    let reads = reads.map(|b| ReadContext {
-        name: b.name.clone(),
-        texture: b.of.clone().unwrap_or_default(),
-        spelled: b.texture.clone().unwrap_or_default(),
-        does: match b.name.split('_').next() {
-            Some("load") => "load",
-            Some("sample") => "sample",
-            _ => "size",
-        },
+    let reads = reads.map(|b| {
+        let texture = b.of.clone().unwrap_or_default();
+        let (meaning, expression) = scope.texel(&texture).unzip();
+        ReadContext {
+            name: b.name.clone(),
+            texture,
+            spelled: b.texture.clone().unwrap_or_default(),
+            does: fits::read_kind(&b.name),
+            meaning,
+            expression,
+        }
     });
+    let reads: Vec<ReadContext> = reads.collect();
+    let mut combined: Vec<CombinedContext> = combined.collect();
+    if combined.is_empty() {
+        combined = combined_of_reads(&reads);
+    }
     ShaderContext {
         text,
         function: manifest.entry_point.clone(),
-        combined: combined.collect(),
+        combined,
         arguments: arguments.collect(),
-        reads: reads.collect(),
+        reads,
+        globals: globals.collect(),
         workgroup: manifest.workgroup_size,
         manifest: serde_json::to_value(manifest).unwrap_or_default(),
     }
+}
+
+/// Combined samplers for functions that read textures, each of which has one.
+fn combined_of_reads(reads: &[ReadContext]) -> Vec<CombinedContext> {
+    let mut all: Vec<CombinedContext> = Vec::new();
+    for read in reads.iter().filter(|read| read.meaning.is_none()) {
+        let filter = if read.does == "sample" { "linear" } else { "nearest" };
+        match all.iter_mut().find(|one| one.texture == read.texture) {
+            Some(one) if filter == "linear" => one.filter = filter,
+            Some(_) => {}
+            None => all.push(CombinedContext {
+                name: read.spelled.clone(),
+                texture: read.texture.clone(),
+                sampler: None,
+                filter,
+                glsl: "sampler2D".to_owned(),
+            }),
+        }
+    }
+    all
 }

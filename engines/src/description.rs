@@ -1,5 +1,6 @@
 //! Description of an engine, read from `engine.toml`.
 
+use crate::meaning::Meaning;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_codegen::emit::Target;
@@ -27,8 +28,26 @@ pub struct Description {
     /// Limits of the engine's bindings.
     #[serde(default)]
     pub limits: Limits,
+    /// Data that the engine itself has, by [`Meaning`]. Without any, a user binds every input by its own name.
+    #[serde(default)]
+    pub meanings: BTreeMap<String, MeaningSource>,
+    /// Reasons for meanings that the engine does not have, where they are not obvious.
+    #[serde(default)]
+    pub lacks: BTreeMap<String, String>,
     /// Template and the file that it makes, whose name is a template too.
     pub files: BTreeMap<String, String>,
+}
+
+/// Source of a meaning in an engine.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeaningSource {
+    /// Name and encoding of the data in the engine, in a few words.
+    pub stored: String,
+    /// Expression of the value as [`Meaning`] defines it, by the shader that contains it. The texel is at `pixel`, and
+    /// `{column}` is the index of a matrix's column. Pictures need none: the templates read them.
+    #[serde(default)]
+    pub expressions: BTreeMap<String, String>,
 }
 
 /// Extent to which an engine has been tested.
@@ -52,10 +71,25 @@ pub struct ShaderDescription {
     /// Binding numbers that the engine assigns.
     #[serde(default)]
     pub numbers: Option<Numbers>,
+    /// Way in which textures that the engine converts reach the shader.
+    #[serde(default)]
+    pub converted: Converted,
     /// Options of the emitted text, by the names of the command line: `stage` (a fragment shader by default), `form`, `origin`,
     /// `texels` where a template defines functions that read them, `global-uniforms`, ...
     #[serde(flatten)]
     pub knobs: Overrides,
+}
+
+/// Way in which a texture that an engine converts, such as depth, reaches a shader.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Converted {
+    /// By a function of the template around the expression, which the shader calls for a texel. It then reads all textures
+    /// by functions.
+    #[default]
+    Functions,
+    /// As a texture of converted texels, which the expression in the host's code is.
+    Arguments,
 }
 
 /// First binding number of each kind; each further resource has the next number.
@@ -122,10 +156,21 @@ impl Description {
                 return Err(refused(format!("`{other}` is for a user to say, not for an engine")));
             }
         }
+        let words = description.meanings.keys().chain(description.lacks.keys());
+        if let Some(word) = words.into_iter().find(|word| Meaning::find(word).is_none()) {
+            return Err(format!("`{word}` is no meaning: docs/engines.md lists them"));
+        }
         if description.shaders.is_empty() || description.files.is_empty() {
             return Err("it names no shader, or no file".to_owned());
         }
         Ok(description)
+    }
+}
+
+impl Description {
+    /// Returns whether a user can set an input that the engine does not provide.
+    pub(crate) fn binds_own(&self, is_texture: bool) -> bool {
+        !is_texture || self.limits.own_textures.unwrap_or(true)
     }
 }
 
@@ -184,9 +229,12 @@ pub struct Limits {
     /// Resources that the engine provides to a shader, for messages: `one picture`.
     #[serde(default)]
     pub gives: Option<String>,
-    /// Maximum number of textures.
+    /// Maximum number of textures, without those that the engine converts.
     #[serde(default)]
     pub textures: Option<u32>,
+    /// `false` if a user cannot bind textures beside those that the engine has.
+    #[serde(default)]
+    pub own_textures: Option<bool>,
     /// Shapes of textures: `2d`, `2d-array`, `3d`, `cube`, `multisampled`.
     #[serde(default)]
     pub dimensions: Option<Vec<String>>,

@@ -1,14 +1,15 @@
 //! An engine: its folder, and the files that it makes of a kernel.
 
-use crate::context::{self, Context};
-use crate::description::{Description, ShaderDescription, SizeSource};
+use crate::context::{self, Context, ShaderScope};
+use crate::description::{Converted, Description, ShaderDescription, SizeSource};
 use crate::error::EngineError;
 use crate::fits::Misfit;
+use crate::inputs::Inputs;
 use crate::{builtin, engine_names, fits, spelling};
 use std::collections::BTreeMap;
 use std::path::Path;
 use straightline_codegen::diagnostic::{Diagnostic, Errors};
-use straightline_codegen::emit::{Emitted, Target, single_line_comment};
+use straightline_codegen::emit::{Emitted, Target, Texels, single_line_comment};
 use straightline_codegen::{Compiled, EmitOptions, OptionInfo, Stage};
 use straightline_manifest::Manifest;
 
@@ -23,6 +24,9 @@ pub struct Request<'a> {
     pub name: String,
     /// Options of the emitted text; the engine's own choices ([`FIXED`](crate::FIXED)) override them.
     pub emit: EmitOptions,
+    /// Meaning of an input by its name, where its name does not say it: a [`Meaning`](crate::Meaning)'s name, or
+    /// [`OWN`](crate::OWN) for an input that the user sets.
+    pub binds: BTreeMap<String, String>,
 }
 
 impl<'a> Request<'a> {
@@ -33,7 +37,14 @@ impl<'a> Request<'a> {
             options,
             name: compiled.kernel.clone(),
             emit: EmitOptions::new(),
+            binds: BTreeMap::new(),
         }
+    }
+
+    /// Gives an input a meaning, or makes it the user's own.
+    pub fn bind(mut self, input: &str, meaning: &str) -> Request<'a> {
+        self.binds.insert(input.to_owned(), meaning.to_owned());
+        self
     }
 }
 
@@ -102,10 +113,10 @@ impl Engine {
     ///
     /// If the kernel does not fit, with a suggestion.
     pub fn context(&self, request: &Request<'_>) -> Result<Context, EngineError> {
-        let shaders = self
+        let (inputs, shaders) = self
             .emit_shaders(request)
             .map_err(|unfit| unfit.into_errors(self, request))?;
-        Ok(self.context_of(request, shaders))
+        Ok(self.context_of(request, &inputs, shaders))
     }
 
     /// Returns whether a kernel fits: every shader can be emitted, and all that it binds can be bound.
@@ -113,8 +124,8 @@ impl Engine {
         self.emit_shaders(request).is_ok()
     }
 
-    /// The shaders of a kernel, by the names of `engine.toml`.
-    fn emit_shaders(&self, request: &Request<'_>) -> Result<BTreeMap<String, Shader>, Unfit> {
+    /// The inputs that the engine provides to a kernel, and its shaders by the names of `engine.toml`.
+    fn emit_shaders(&self, request: &Request<'_>) -> Result<(Inputs, BTreeMap<String, Shader>), Unfit> {
         // Errors of bindings are reported before those of a language: a user can understand them.
         let stage = self.description.shaders.values().next().map(ShaderDescription::stage);
         let probe = EmitOptions::new()
@@ -126,21 +137,28 @@ impl Engine {
             Ok(emitted) => emitted.manifest,
             Err(error) => return Err(error.into()),
         };
-        if let Some(misfit) = fits::why_not(&manifest, limits, &self.description.title) {
+        let inputs = Inputs::resolve(&manifest, &self.description, &request.binds).map_err(Unfit::Engine)?;
+        let misfit = fits::why_not(&manifest, &inputs, limits, &self.description.title)
+            .or_else(|| inputs.find_unknown(&manifest, &self.description));
+        if let Some(misfit) = misfit {
             return Err(Unfit::Engine(misfit));
         }
         let each = self.description.shaders.iter().map(|(name, description)| {
-            let shader = Shader::from_request(&self.description, description, request, &manifest)?;
+            let shader = Shader::from_request(&self.description, description, request, &inputs, &manifest)?;
+            if let Some(misfit) = fits::find_filtered(&shader.manifest, &inputs, &self.description.title) {
+                return Err(Unfit::Engine(misfit));
+            }
             // An origin at the lower left needs the size where the kernel does not.
             if let Some(misfit) = fits::find_unknown_size(&shader.manifest, limits, &self.description.title) {
                 return Err(Unfit::Engine(misfit));
             }
             Ok((name.clone(), shader))
         });
-        each.collect()
+        let shaders = each.collect::<Result<_, Unfit>>()?;
+        Ok((inputs, shaders))
     }
 
-    fn context_of(&self, request: &Request<'_>, shaders: BTreeMap<String, Shader>) -> Context {
+    fn context_of(&self, request: &Request<'_>, inputs: &Inputs, shaders: BTreeMap<String, Shader>) -> Context {
         let (compiled, name) = (request.compiled, &request.name);
         let first = shaders.values().next();
         let mut context = Context {
@@ -153,9 +171,13 @@ impl Engine {
             engine: single_line_comment(&self.name),
             textures: Vec::new(),
             picture: None,
+            given: Vec::new(),
+            own: Vec::new(),
             samplers: Vec::new(),
             uniforms: Vec::new(),
             resolution: None,
+            provided: context::provided_contexts(inputs, &self.description),
+            meanings: context::used_meanings(inputs),
             block: None,
             outputs: Vec::new(),
             shaders: BTreeMap::new(),
@@ -165,10 +187,17 @@ impl Engine {
         // The bindings are the same for every shader of a kernel.
         if let Some(Shader { manifest, .. }) = first {
             context.generator.clone_from(&manifest.generator);
-            context.textures = context::texture_contexts(manifest);
+            context.textures = context::texture_contexts(manifest, inputs);
             context.picture = context::filtered_texture(&context.textures);
+            let given = context
+                .textures
+                .iter()
+                .filter(|texture| !inputs.is_converted(&texture.name));
+            context.given = given.cloned().collect();
+            context.own = context.textures.iter().filter(|texture| texture.own).cloned().collect();
             context.samplers = context::sampler_contexts(manifest);
             (context.uniforms, context.block) = context::uniform_contexts(manifest, request.options);
+            context.uniforms.retain(|uniform| inputs.meaning(&uniform.of).is_none());
             context.outputs = context::output_contexts(manifest);
         }
         let fills_size = self.description.limits.resolution == Some(SizeSource::Filled);
@@ -187,10 +216,16 @@ impl Engine {
         context.shaders = shaders
             .into_iter()
             .map(|(name, shader)| {
-                (
-                    name,
-                    context::shader_context(shader.text, shader.takes_uniforms, fills_size, &shader.manifest),
-                )
+                let scope = ShaderScope {
+                    name: &name,
+                    takes_uniforms: shader.takes_uniforms,
+                    fills_size,
+                    target: shader.target,
+                    inputs,
+                    meanings: &self.description.meanings,
+                };
+                let context = context::shader_context(shader.text, &shader.manifest, &scope);
+                (name, context)
             })
             .collect();
         if context.shaders.len() == 1 {
@@ -211,6 +246,7 @@ impl Engine {
 struct Shader {
     text: String,
     takes_uniforms: bool,
+    target: Target,
     manifest: Manifest,
 }
 
@@ -220,6 +256,7 @@ impl Shader {
         engine: &Description,
         description: &ShaderDescription,
         request: &Request<'_>,
+        inputs: &Inputs,
         bound: &Manifest,
     ) -> Result<Shader, Unfit> {
         let unknown = |why: String| Unfit::Engine(Misfit::new(why));
@@ -231,10 +268,15 @@ impl Shader {
         options.bindings = description
             .numbers
             .map_or_else(Vec::new, |numbers| numbers.number_bindings(bound));
+        let converts = bound.bindings.iter().any(|binding| inputs.is_converted(&binding.name));
+        if converts && description.converted == Converted::Functions {
+            options.texels = Texels::Functions;
+        }
         let emitted = request.compiled.emit(&options)?;
         let target = description.target().map_err(unknown)?;
         Ok(Shader {
             text: shader_text(&emitted, target),
+            target,
             takes_uniforms: !options.global_uniforms,
             manifest: emitted.manifest,
         })
@@ -272,8 +314,15 @@ impl Unfit {
         let compiled = request.compiled;
         let what = format!("`{}` does not fit {}", compiled.kernel, engine.description.title);
         match self {
-            Unfit::Engine(Misfit { why, input, code }) => {
-                let error = Diagnostic::new(code, format!("{what}: it {why}")).help(instead);
+            Unfit::Engine(Misfit { why, input, code, help }) => {
+                let mut error = Diagnostic::new(code, format!("{what}: it {why}"));
+                match help {
+                    Some(help) => {
+                        error.notes.push(instead);
+                        error = error.help(help);
+                    }
+                    None => error = error.help(instead),
+                }
                 compiled.locate_error(error, input.as_deref())
             }
             Unfit::Emit(mut errors) => {

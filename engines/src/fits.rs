@@ -1,8 +1,9 @@
 //! Checks whether a kernel fits an engine.
 
 use crate::description::{Limits, SizeSource};
+use crate::inputs::Inputs;
 use straightline_codegen::diagnostic::Code;
-use straightline_manifest::{BindingKind, Dimension, Manifest, SampleType, SamplerType, UniformField};
+use straightline_manifest::{BindingKind, Dimension, LanguageKind, Manifest, SampleType, SamplerType, UniformField};
 
 /// Reason why a kernel does not fit an engine.
 pub struct Misfit {
@@ -12,6 +13,8 @@ pub struct Misfit {
     pub input: Option<String>,
     /// Kind of error.
     pub code: Code,
+    /// Text that would settle it, if there is one.
+    pub help: Option<String>,
 }
 
 impl Misfit {
@@ -21,20 +24,29 @@ impl Misfit {
             why,
             input: None,
             code: Code::EngineUnfit,
+            help: None,
         }
     }
 
-    fn of_input(input: &str, why: String) -> Misfit {
+    /// A misfit of one input.
+    pub fn of_input(input: &str, why: String) -> Misfit {
         Misfit {
             why,
             input: Some(input.to_owned()),
             code: Code::EngineUnfit,
+            help: None,
         }
+    }
+
+    /// Adds the text that would settle it.
+    pub fn help(mut self, help: String) -> Misfit {
+        self.help = Some(help);
+        self
     }
 }
 
-/// Returns the reason why a kernel with this manifest does not fit an engine.
-pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misfit> {
+/// Returns the reason why a kernel with this manifest does not fit an engine that provides `inputs` itself.
+pub fn why_not(manifest: &Manifest, inputs: &Inputs, limits: &Limits, title: &str) -> Option<Misfit> {
     let gives = |what: &str| match &limits.gives {
         Some(gives) => format!("{title} gives {gives}"),
         None => format!("{title} takes {what}"),
@@ -42,7 +54,7 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misf
     let textures = manifest
         .bindings
         .iter()
-        .filter(|b| matches!(b.kind, BindingKind::Texture { .. }));
+        .filter(|b| matches!(b.kind, BindingKind::Texture { .. }) && !inputs.is_converted(&b.name));
     let count = textures.count() as u32;
     if let Some(most) = limits.textures.filter(|most| count > *most) {
         return Some(Misfit::new(format!(
@@ -94,7 +106,8 @@ pub fn why_not(manifest: &Manifest, limits: &Limits, title: &str) -> Option<Misf
                 if let Some(misfit) = find_unknown_size(manifest, limits, title) {
                     return Some(misfit);
                 }
-                let filled = |field: &UniformField| field.frame_size && limits.resolution == Some(SizeSource::Filled);
+                let sized = |field: &UniformField| field.frame_size && limits.resolution == Some(SizeSource::Filled);
+                let filled = |field: &UniformField| sized(field) || inputs.field_meaning(field).is_some();
                 let fields = || fields.iter().filter(|field| !filled(field));
                 uniforms += fields().count() as u32;
                 let types = limits.uniform_types.clone().unwrap_or_else(settable_types);
@@ -150,7 +163,26 @@ pub fn find_unknown_size(manifest: &Manifest, limits: &Limits, title: &str) -> O
         why,
         input: None,
         code: Code::FrameSize,
+        help: None,
     })
+}
+
+/// Returns the misfit of a shader that filters a texture which the engine converts texel by texel.
+pub fn find_filtered(manifest: &Manifest, inputs: &Inputs, title: &str) -> Option<Misfit> {
+    let functions = manifest.language_bindings.iter();
+    let mut functions = functions.filter(|b| b.kind == LanguageKind::Function && read_kind(&b.name) == "sample");
+    let name = functions.find_map(|b| b.of.as_deref().filter(|of| inputs.is_converted(of)))?;
+    let why = format!("filters `{name}`, and {title} converts it for the kernel texel by texel");
+    Some(Misfit::of_input(name, why).help(format!("read it by `{name}.load(pixel)`")))
+}
+
+/// Kind of read that a function of the host's does, by its name: `load`, `sample` or `size`.
+pub fn read_kind(function: &str) -> &'static str {
+    match function.split('_').next() {
+        Some("load") => "load",
+        Some("sample") => "sample",
+        _ => "size",
+    }
 }
 
 /// Types of uniforms that every template can set: numbers and vectors of them.

@@ -29,6 +29,8 @@ mod error;
 mod filters;
 mod fits;
 mod folder;
+mod inputs;
+pub mod meaning;
 mod render;
 mod spelling;
 mod words;
@@ -36,6 +38,7 @@ mod words;
 pub use description::FIXED;
 pub use engine::{Engine, Request};
 pub use error::EngineError;
+pub use meaning::{MEANINGS, Meaning, OWN};
 
 use std::path::{Path, PathBuf};
 use straightline_codegen::{Kernel, Settings, files};
@@ -52,9 +55,27 @@ pub fn engine_names() -> impl Iterator<Item = &'static str> {
 ///
 /// The kernel is wrong, it does not fit the engine, or the files cannot be written.
 pub fn write(kernel: &Kernel, settings: &Settings, engine: &str, out: &Path) -> Result<Vec<PathBuf>, EngineError> {
+    write_bound(kernel, settings, engine, &[], out)
+}
+
+/// As [`write`], with a [`Meaning`] or [`OWN`] for inputs whose names do not say theirs: `[("before", "color")]`.
+///
+/// # Errors
+///
+/// As [`write`]; and if there is no such input or meaning.
+pub fn write_bound(
+    kernel: &Kernel,
+    settings: &Settings,
+    engine: &str,
+    binds: &[(&str, &str)],
+    out: &Path,
+) -> Result<Vec<PathBuf>, EngineError> {
     let engine = Engine::find(engine)?;
     let compiled = kernel.compile(settings)?;
     let options = kernel.options()?;
     let request = Request::new(&compiled, &options);
+    let request = binds
+        .iter()
+        .fold(request, |request, (input, word)| request.bind(input, word));
     Ok(files::write_all(out, &engine.render_files(&request)?)?)
 }

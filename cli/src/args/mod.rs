@@ -126,12 +126,24 @@ pub struct EmitArgs {
     /// origin
     #[arg(long, value_name = "NAME|FOLDER", conflicts_with_all = straightline_engines::FIXED)]
     pub engine: Option<String>,
+    /// Meaning of an input for the engine, where its name does not say it: `color`, `depth`, ... (see `list ENGINE`), or
+    /// `own` for an input that you set
+    #[arg(long, value_name = "NAME=MEANING", requires = "engine", value_parser = parse_bind)]
+    pub bind: Vec<(String, String)>,
     /// Output folder; created if missing
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Name of the files, without extension; by default the kernel's name
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
+}
+
+/// Reads an input's name and its meaning.
+fn parse_bind(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, meaning)) if !name.is_empty() && !meaning.is_empty() => Ok((name.to_owned(), meaning.to_owned())),
+        _ => Err("write NAME=MEANING, such as `scene=color`".to_owned()),
+    }
 }
 
 impl EmitArgs {

@@ -50,7 +50,8 @@ pub fn write_shaders(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Res
         )));
     }
     if let Some(engine) = &args.engine {
-        let files = for_engine(options, kernel, compiled, engine, name)?;
+        let request = (options, args.bind.iter().cloned().collect());
+        let files = for_engine(request, kernel, compiled, engine, name)?;
         return write_all(args, compiled, &files);
     }
     let emitted = compiled.emit(&options)?;
@@ -59,7 +60,7 @@ pub fn write_shaders(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Res
 
 /// Returns the files for an engine.
 fn for_engine(
-    emit: EmitOptions,
+    (emit, binds): (EmitOptions, BTreeMap<String, String>),
     kernel: &Kernel,
     compiled: &Compiled,
     engine: &str,
@@ -75,6 +76,7 @@ fn for_engine(
     let request = Request {
         name: name.to_owned(),
         emit,
+        binds,
         ..Request::new(compiled, &options)
     };
     engine.render_files(&request).map_err(failure)

@@ -5,7 +5,8 @@ use crate::failure::Failure;
 use crate::paragraph::wrap_text;
 use serde_json::{Value, json};
 use straightline_codegen::{Kernel, OptionInfo, OptionKind, shorten};
-use straightline_engines::{Engine, engine_names};
+use straightline_engines::description::Description;
+use straightline_engines::{Engine, MEANINGS, engine_names};
 use straightline_kernels::{CATALOGUE, Entry, Preset};
 
 /// Columns of a screen.
@@ -95,8 +96,25 @@ fn print_engine(name: &str, as_json: bool) -> Result<(), Failure> {
     let description = engine.description();
     let text = format!("{name}: {}: {}", description.title, description.about);
     outln!("{}", wrap_text(&text, WIDTH, "", "  "));
+    print_meanings(description);
     outln!("\nstraightline emit KERNEL --engine {name} --out DIR");
     Ok(())
+}
+
+/// Prints the inputs that an engine provides by meaning.
+fn print_meanings(description: &Description) {
+    if description.meanings.is_empty() {
+        outln!("\nYou set every input of a kernel by its own name.");
+        return;
+    }
+    outln!("\nInputs that it provides, by name or by `--bind NAME=MEANING` (`own`: you set it):");
+    for meaning in &MEANINGS {
+        let Some(source) = description.meanings.get(meaning.name) else {
+            continue;
+        };
+        let text = format!("{}: {} Here: {}.", meaning.name, meaning.doc, source.stored);
+        outln!("{}", wrap_text(&text, WIDTH, "  ", "      "));
+    }
 }
 
 fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
@@ -199,7 +217,13 @@ fn format_bound(bound: f64) -> String {
 
 fn engine_json(engine: &Engine) -> Value {
     let description = engine.description();
-    json!({ "name": engine.name(), "title": description.title, "about": description.about })
+    let provided = MEANINGS
+        .iter()
+        .filter(|meaning| description.meanings.contains_key(meaning.name));
+    let provided: Vec<&str> = provided.map(|meaning| meaning.name).collect();
+    json!({
+        "name": engine.name(), "title": description.title, "about": description.about, "provides": provided,
+    })
 }
 
 fn kernel_json(kernel: &Kernel) -> Result<Value, Failure> {

@@ -434,6 +434,11 @@ fn random_names_in_every_template() {
                 for engine in &fitting {
                     let shown = format!("{name} for {engine}, seed {seed}, {:?}", renamed.names);
                     let found = Engine::builtin(engine).expect("an engine");
+                    let picture = renamed.names.get("color").map_or("color", String::as_str);
+                    let request = match found.description().meanings.is_empty() {
+                        true => request.clone(),
+                        false => request.clone().bind(picture, "color"),
+                    };
                     let files = found.render_files(&request).unwrap_or_else(|e| panic!("{shown}: {e}"));
                     let files: BTreeMap<String, String> = files
                         .into_iter()

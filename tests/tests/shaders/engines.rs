@@ -6,6 +6,7 @@
 
 mod code;
 mod hostile;
+mod meanings;
 pub mod readable;
 
 use std::collections::BTreeMap;
@@ -53,6 +54,8 @@ fn subjects() -> Vec<Subject> {
         Subject::new("bilateral", "kernels/filters/bilateral.rs", &[("sigma", "uniform")]),
         Subject::new("pcf", "", &[]),
         Subject::new("stretched", "tests/engines/kernels/stretched.rs", &[]),
+        Subject::new("fog", "tests/engines/kernels/fog.rs", &[]),
+        Subject::new("ssao", "kernels/filters/ssao.rs", &[]),
     ]
 }
 

@@ -24,6 +24,7 @@ Shader "Straightline/Orientation"
             #pragma vertex Vert
             #pragma fragment Frag
 
+            #include "Packages/com.unity.render-pipelines.universal/ShaderLibrary/Core.hlsl"
             #include "Packages/com.unity.render-pipelines.core/Runtime/Utilities/Blit.hlsl"
             #include "Orientation.hlsl"
 

@@ -31,7 +31,9 @@ pub fn check(engine: &str, files: &Files) -> Result<usize, String> {
         }
         "postprocessing" => {
             let effect = literal(ending(".js")?, "FRAGMENT")?;
-            let around = "precision highp float;\nuniform highp sampler2D inputBuffer;\nuniform vec2 resolution;\nout vec4 colour;\n";
+            let around = "precision highp float;\nuniform highp sampler2D inputBuffer;\nuniform vec2 resolution;\nuniform vec2 texelSize;\n\
+                uniform float cameraNear, cameraFar, time;\nfloat readDepth(const in vec2 uv) { return uv.x; }\n\
+                float getViewZ(const in float depth) { return depth; }\nout vec4 colour;\n";
             let main = "void main() { mainImage(vec4(0.0), vec2(0.0), colour); }\n";
             essl(&format!("{es}{around}{effect}{main}"))?;
         }
@@ -148,7 +150,7 @@ fn mpv(text: &str) -> Result<(), String> {
     let parameters: String = parameters.map(|name| format!("const float {name} = 1.0;\n")).collect();
     let around = "#version 450\nlayout(set = 0, binding = 0) uniform sampler2D HOOKED_raw;\nlayout(location = 0) in vec2 HOOKED_pos;\n\
         #define HOOKED_tex(pos) textureLod(HOOKED_raw, pos, 0.0)\n#define HOOKED_size vec2(64.0)\n#define HOOKED_pt vec2(0.015625)\n\
-        layout(location = 0) out vec4 colour;\n";
+        const int frame = 3;\nlayout(location = 0) out vec4 colour;\n";
     let main = "void main() { colour = hook(); }\n";
     compilers::compiled_glsl(&format!("{around}{parameters}{hook}{main}"), "frag").map(drop)
 }
@@ -172,17 +174,26 @@ fn godot(text: &str) -> Result<(), String> {
         _ => format!("{line}\n"),
     };
     let body: String = text.lines().map(line).collect();
-    let around = "#version 330\nout vec4 COLOR;\n#define FRAGCOORD gl_FragCoord\n#define fragment main\n";
+    let around =
+        "#version 330\nout vec4 COLOR;\n#define FRAGCOORD gl_FragCoord\nuniform float TIME;\n#define fragment main\n";
     opengl(&format!("{around}{body}"), "frag")
 }
 
 /// The program of URP's shader, with the include in its place.
 fn unity(shader: &str, include: &str) -> Result<(), String> {
     let program = between(shader, "HLSLPROGRAM", "ENDHLSL")?;
-    let lines = program.lines().filter(|line| !line.trim_start().starts_with('#'));
-    let blit = "Texture2D<float4> _BlitTexture;\nfloat4 _BlitTexture_TexelSize;\nSamplerState sampler_LinearClamp;\nstruct Varyings { float4 positionCS : SV_POSITION; };\n";
+    // The include stands after the functions that it calls.
+    let own = |line: &str| line.trim_start().starts_with("#include") && !line.contains("Packages/");
+    let lines = program.lines().map(|line| if own(line) { include } else { line });
+    let lines = lines.filter(|line| !line.trim_start().starts_with("#pragma") && !line.contains("Packages/"));
     let body = lines.collect::<Vec<_>>().join("\n");
-    compilers::compiled_hlsl(&format!("{blit}{include}{body}"), Stage::Fragment, "Frag").map(drop)
+    let library = "Texture2D<float4> _BlitTexture;\nfloat4 _BlitTexture_TexelSize, _Time, _ProjectionParams, _ZBufferParams, unity_OrthoParams;\n\
+        float4x4 UNITY_MATRIX_V, UNITY_MATRIX_P, UNITY_MATRIX_I_P;\nSamplerState sampler_LinearClamp;\n\
+        struct Varyings { float4 positionCS : SV_POSITION; };\n\
+        float LoadSceneDepth(uint2 pixel) { return _BlitTexture.Load(int3(pixel, 0)).x; }\n\
+        float3 LoadSceneNormals(uint2 pixel) { return _BlitTexture.Load(int3(pixel, 0)).xyz; }\n\
+        float LinearEyeDepth(float depth, float4 terms) { return 1.0 / (terms.z * depth + terms.w); }\n";
+    compilers::compiled_hlsl(&format!("{library}{body}"), Stage::Fragment, "Frag").map(drop)
 }
 
 /// ReShade's effect up to its technique, which is no HLSL.
@@ -197,13 +208,16 @@ fn reshade(text: &str) -> Result<(), String> {
         annotated &= !ends;
         begins || !(annotated || ends || line.starts_with("#include"))
     });
-    let lines = lines.map(|line| match line.starts_with("uniform") && line.ends_with('<') {
-        true => line.trim_end_matches([' ', '<']).to_owned() + ";",
-        false => line.to_owned(),
-    });
+    let lines = lines.map(
+        |line| match line.split_once(" <").filter(|_| line.starts_with("uniform")) {
+            Some((declared, _)) => format!("{declared};"),
+            None => line.to_owned(),
+        },
+    );
     let body = lines.collect::<Vec<_>>().join("\n");
     let around = "#define BUFFER_WIDTH 64\n#define BUFFER_HEIGHT 64\nTexture2D<float4> back;\nSamplerState state;\n\
-        namespace ReShade { static const int BackBuffer = 0; }\n\
+        #define BUFFER_RCP_WIDTH 0.015625\n#define BUFFER_RCP_HEIGHT 0.015625\n#define RESHADE_DEPTH_LINEARIZATION_FAR_PLANE 1000.0\n\
+        namespace ReShade { static const int BackBuffer = 0; float GetLinearizedDepth(float2 uv) { return uv.x; } }\n\
         float4 tex2Dfetch(int s, int2 p) { return back.Load(int3(p, 0)); }\n\
         float4 tex2Dlod(int s, float4 p) { return back.SampleLevel(state, p.xy, p.w); }\n";
     compilers::compiled_hlsl(&format!("{around}{body}"), Stage::Fragment, &shader).map(drop)
@@ -217,7 +231,7 @@ fn unreal(text: &str) -> Result<(), String> {
     let head = head.ok_or("no function")?;
     let function = between(head, "float4 ", "(")?;
     let given = head.matches(", ").count();
-    let around = "struct Views { float4 ViewSizeAndInvSize; };\nstatic const Views View = { float4(64.0, 64.0, 0.015625, 0.015625) };\n\
+    let around = "struct Views { float4 ViewSizeAndInvSize; float4x4 TranslatedWorldToView; };\nuniform Views View;\n\
         Texture2D<float4> post;\nSamplerState state;\nfloat2 ViewportUVToSceneTextureUV(float2 uv, uint id) { return uv; }\n\
         float4 SceneTextureLookup(float2 uv, int id, bool filtered) { return post.SampleLevel(state, uv, 0.0); }\n";
     let main = format!(
