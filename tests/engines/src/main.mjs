@@ -7,9 +7,10 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { open } from "./browser.mjs";
 import { compare } from "./compare.mjs";
-import { ENGINES, PYTHON, UPRIGHT } from "./engines.mjs";
+import { ENGINES, PYTHON, UPRIGHT, scenePanda3d } from "./engines.mjs";
 import { readExr, writeExr } from "./exr.mjs";
 import { HEIGHT, KERNELS, WIDTH, inputs } from "./kernels.mjs";
+import { SCENE, SCENES, foggy } from "./scenes.mjs";
 
 const here = dirname(dirname(fileURLToPath(import.meta.url)));
 const root = dirname(dirname(here));
@@ -76,6 +77,7 @@ function reference(kernel, work) {
 
 const work = mkdtempSync(join(tmpdir(), "straightline-engines-"));
 const rows = [];
+const scenes = [];
 const versions = {};
 let failed = 0;
 let browser;
@@ -106,17 +108,25 @@ try {
             console.log(`${scene.engine}${scene.webgpu ? ", WebGPU" : ", WebGL"}: rows of a rendered scene: ${why ?? `from ${scene.origin}, as engine.toml says`}`);
         }
     }
+    if (!onlyKernel || onlyKernel === "fog") {
+        for (const scene of SCENES.filter(({ name, engine }) => !only || name === only || engine === only)) {
+            const result = await rendered(scene);
+            scenes.push({ engine: scene.name, ...result });
+            if (result.state !== "same") failed += 1;
+            console.log(`${scene.name}: fog in a rendered scene: ${result.state} ${result.why ?? `most ${result.most.toExponential(1)}`}`);
+        }
+    }
 } finally {
     await browser?.close();
     rmSync(work, { recursive: true, force: true });
 }
 if (record) {
     const lock = JSON.parse(readFileSync(join(here, "package.json"), "utf8"));
-    const text = JSON.stringify({ command: "tests/engines/run --record=FILE", size: [WIDTH, HEIGHT], versions: { ...versions, ...lock.dependencies }, rows }, null, 1);
+    const text = JSON.stringify({ command: "tests/engines/run --record=FILE", size: [WIDTH, HEIGHT], versions: { ...versions, ...lock.dependencies }, rows, scenes }, null, 1);
     mkdirSync(dirname(record), { recursive: true });
     writeFileSync(record, `${text}\n`);
 }
-console.log(failed ? `${failed} of ${rows.length} failed` : `${rows.length} passed`);
+console.log(failed ? `${failed} of ${rows.length + scenes.length} failed` : `${rows.length + scenes.length} passed`);
 process.exitCode = failed ? 1 : 0;
 
 /**
@@ -131,6 +141,23 @@ async function upright({ engine, webgpu, origin }) {
         return first === expected[0] && last === expected[1] ? null : `row 0 is ${first} and the last ${last}, not ${expected}`;
     } catch (error) {
         return error.message.slice(0, 2000);
+    }
+}
+
+/** Emits the fog, has the engine render a scene with it, and compares with the distances that the scene has. */
+async function rendered({ page, engine, file, native, ...scene }) {
+    const need = native ?? "chromium";
+    if (!versions[need]) return { state: "missing", why: `${need} is not there: ${PROGRAMS[need].install}` };
+    const folder = join(work, `${engine}-fog`);
+    const refused = emitted({ name: "fog", kernel: "tests/engines/kernels/fog.rs", options: [], uniforms: {} }, { engine }, folder);
+    if (refused) return { state: "failed", why: refused };
+    try {
+        const { rgba } = native ? scenePanda3d(folder, SCENE) : await browser.run(page, { ...SCENE, ...scene, module: `/emitted/${engine}-fog/${file}`, inputs: {} });
+        // Drivers move vertices to a fraction of a pixel, by which the distances of the plane differ.
+        const found = compare(rgba, foggy(scene), 32, 2 ** -9);
+        return { state: found.within === 1 ? "same" : "differs", most: found.most, limit: found.limit };
+    } catch (error) {
+        return { state: "failed", why: error.message.slice(0, 2000) };
     }
 }
 

@@ -1,0 +1,37 @@
+// Scenes that engines render themselves: a kernel that reads their depth has to get the distance along the view.
+
+import { HEIGHT, WIDTH } from "./pictures.mjs";
+
+/** Vertical field of view in degrees, planes of the camera, and the slope of a plane that fills the picture. */
+export const SCENE = { fov: 50, near: 0.5, far: 40, distance: 6, slope: 0.5, color: [0.25, 0.5, 0.75], width: WIDTH, height: HEIGHT };
+
+/**
+ * Engines with depth of their own, and the emitted files that their pages import; `opaque` where alpha ends at 1,
+ * `native` where no page runs them.
+ */
+export const SCENES = [
+    { name: "three, WebGLRenderer", engine: "three", page: "scene-three", file: "fog-pass.js" },
+    { name: "three, WebGLRenderer, orthographic", engine: "three", page: "scene-three", file: "fog-pass.js", parallel: true },
+    { name: "three, WebGLRenderer, reversed depth", engine: "three", page: "scene-three", file: "fog-pass.js", reversed: true },
+    { name: "three, WebGPURenderer", engine: "three", page: "scene-three", file: "fog-node.js", webgpu: true },
+    { name: "postprocessing", engine: "postprocessing", page: "scene-postprocessing", file: "fog-effect.js", opaque: true },
+    { name: "babylon, WebGL 2", engine: "babylon", page: "scene-babylon", file: "fog-post-process.js" },
+    { name: "babylon, WebGPU", engine: "babylon", page: "scene-babylon", file: "fog-post-process.js", webgpu: true },
+    { name: "panda3d", engine: "panda3d", native: "panda3d" },
+];
+
+/** The scene in the fog of `kernels/fog.rs`, rows from above: RGB, and the distance in alpha. */
+export function foggy({ parallel, opaque }) {
+    const { fov, distance, slope, color } = SCENE;
+    const up = Math.tan((fov * Math.PI) / 360);
+    const rgba = new Float32Array(4 * WIDTH * HEIGHT);
+    for (let y = 0; y < HEIGHT; y++) {
+        // Height of the ray through a row at distance 1. The plane leans away from the viewer below.
+        const ray = up * (1 - (2 * (y + 0.5)) / HEIGHT);
+        const far = parallel ? distance - distance * ray * Math.tan(slope) : distance * Math.cos(slope) / (Math.sin(slope) * ray + Math.cos(slope));
+        const seen = Math.exp(-0.125 * far);
+        const texel = [...color.map((value) => value * seen + 0.5 * (1 - seen)), opaque ? 1 : far];
+        for (let x = 0; x < WIDTH; x++) rgba.set(texel, 4 * (y * WIDTH + x));
+    }
+    return rgba;
+}
