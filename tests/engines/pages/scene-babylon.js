@@ -16,8 +16,8 @@ import { turned } from "./rows.js";
 
 const FLOAT = 1;
 
-export async function run({ module, webgpu, fov, near, far, distance, slope, color, width, height }) {
-    const { FogPostProcess } = await import(module);
+export async function run({ module, className, webgpu, fov, near, far, distance, slope, color, width, height }) {
+    const { [`${className}PostProcess`]: Filter } = await import(module);
     const canvas = document.createElement("canvas");
     canvas.width = width;
     canvas.height = height;
@@ -39,7 +39,7 @@ export async function run({ module, webgpu, fov, near, far, distance, slope, col
     // z runs into the scene here.
     plane.rotation.x = -slope;
     plane.material = material;
-    const filter = new FogPostProcess(camera, { textureType: FLOAT });
+    const filter = new Filter(camera, { textureType: FLOAT });
     // The picture that the next one gets is the filter's.
     const next = new PassPostProcess("next", 1, camera, 1, engine, false, FLOAT);
     await scene.whenReadyAsync();

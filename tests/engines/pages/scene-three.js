@@ -26,8 +26,9 @@ export async function run({ module, webgpu, ...task }) {
     return webgpu ? runWebGpu(emitted, task) : runWebGl(emitted, task);
 }
 
-async function runWebGl({ FogPass }, task) {
-    const { width, height, reversed } = task;
+async function runWebGl(emitted, task) {
+    const { className, width, height, reversed } = task;
+    const Filter = emitted[`${className}Pass`];
     const { scene, camera } = sceneOf(WEBGL, task);
     const renderer = new WEBGL.WebGLRenderer({ reversedDepthBuffer: reversed });
     if (reversed && !renderer.capabilities.reversedDepthBuffer) throw new Error("no EXT_clip_control");
@@ -36,22 +37,22 @@ async function runWebGl({ FogPass }, task) {
     const composer = new EffectComposer(renderer, new WEBGL.WebGLRenderTarget(width, height, { type: WEBGL.FloatType, depthTexture }));
     composer.renderToScreen = false;
     composer.addPass(new RenderPass(scene, camera));
-    composer.addPass(new FogPass(camera));
+    composer.addPass(new Filter(camera));
     composer.render();
     const rgba = new Float32Array(4 * width * height);
     renderer.readRenderTargetPixels(composer.readBuffer, 0, 0, width, height, rgba);
     return turned(rgba, width, height);
 }
 
-async function runWebGpu({ fog }, task) {
-    const { width, height } = task;
+async function runWebGpu(emitted, task) {
+    const { functionName, width, height } = task;
     const { scene, camera } = sceneOf(WEBGPU, task);
     const renderer = new WEBGPU.WebGPURenderer();
     await renderer.init();
     if (!renderer.backend.isWebGPUBackend) throw new Error("three.js did not get WebGPU");
     renderer.setSize(width, height, false);
     const material = new WEBGPU.NodeMaterial();
-    material.fragmentNode = fog({ color: pass(scene, camera) });
+    material.fragmentNode = emitted[functionName]({ color: pass(scene, camera) });
     const target = new WEBGPU.RenderTarget(width, height, { type: WEBGPU.FloatType, depthBuffer: false });
     renderer.setRenderTarget(target);
     new WEBGPU.QuadMesh(material).render(renderer);

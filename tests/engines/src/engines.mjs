@@ -128,11 +128,11 @@ function panda3d({ kernel, folder, className }) {
     return withFloats(kernel, folder, (given) => run(PYTHON, [join(native, "in_panda3d.py"), module, `${className}Filter`, ...given]));
 }
 
-/** A scene that Panda3D renders with the emitted fog. */
-export function scenePanda3d(folder, { fov, near, far, distance, slope, color, width, height }) {
+/** A scene that Panda3D renders with the emitted filter. */
+export function scenePanda3d(folder, className, { fov, near, far, distance, slope, color, width, height }) {
     const out = join(folder, "scene.f32");
     const given = [width, height, fov, near, far, distance, slope, ...color].map(String);
-    run(PYTHON, [join(native, "scene_panda3d.py"), ending(folder, ".py"), "FogFilter", out, ...given]);
+    run(PYTHON, [join(native, "scene_panda3d.py"), ending(folder, ".py"), `${className}Filter`, out, ...given]);
     const bytes = readFileSync(out);
     const rgba = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
     return { rgba: turned(rgba, width, height) };

@@ -10,7 +10,7 @@ import { compare } from "./compare.mjs";
 import { ENGINES, PYTHON, UPRIGHT, scenePanda3d } from "./engines.mjs";
 import { readExr, writeExr } from "./exr.mjs";
 import { HEIGHT, KERNELS, WIDTH, inputs } from "./kernels.mjs";
-import { SCENE, SCENES, foggy } from "./scenes.mjs";
+import { FILTERS, SCENE, SCENES } from "./scenes.mjs";
 
 const here = dirname(dirname(fileURLToPath(import.meta.url)));
 const root = dirname(dirname(here));
@@ -108,12 +108,13 @@ try {
             console.log(`${scene.engine}${scene.webgpu ? ", WebGPU" : ", WebGL"}: rows of a rendered scene: ${why ?? `from ${scene.origin}, as engine.toml says`}`);
         }
     }
-    if (!onlyKernel || onlyKernel === "fog") {
-        for (const scene of SCENES.filter(({ name, engine }) => !only || name === only || engine === only)) {
-            const result = await rendered(scene);
-            scenes.push({ engine: scene.name, ...result });
+    for (const filter of FILTERS.filter(({ name }) => !onlyKernel || name === onlyKernel)) {
+        const rendering = SCENES.filter(({ name }) => filter.engines.includes(name));
+        for (const scene of rendering.filter(({ name, engine }) => !only || name === only || engine === only)) {
+            const result = await rendered(scene, filter);
+            scenes.push({ engine: scene.name, kernel: filter.name, ...result });
             if (result.state !== "same") failed += 1;
-            console.log(`${scene.name}: fog in a rendered scene: ${result.state} ${result.why ?? `most ${result.most.toExponential(1)}`}`);
+            console.log(`${scene.name}: ${filter.name} in a rendered scene: ${result.state} ${result.why ?? `most ${result.most.toExponential(1)}`}`);
         }
     }
 } finally {
@@ -144,17 +145,21 @@ async function upright({ engine, webgpu, origin }) {
     }
 }
 
-/** Emits the fog, has the engine render a scene with it, and compares with the distances that the scene has. */
-async function rendered({ page, engine, file, native, ...scene }) {
+/** Emits a filter, has the engine render a scene with it, and compares with the picture that the scene has to make. */
+async function rendered({ page, engine, file, native, ...scene }, { name, expected }) {
     const need = native ?? "chromium";
     if (!versions[need]) return { state: "missing", why: `${need} is not there: ${PROGRAMS[need].install}` };
-    const folder = join(work, `${engine}-fog`);
-    const refused = emitted({ name: "fog", kernel: "tests/engines/kernels/fog.rs", options: [], uniforms: {} }, { engine }, folder);
+    const folder = join(work, `${engine}-${name}-scene`);
+    const refused = emitted({ name, kernel: `tests/engines/kernels/${name}.rs`, options: [], uniforms: {} }, { engine }, folder);
     if (refused) return { state: "failed", why: refused };
     try {
-        const { rgba } = native ? scenePanda3d(folder, SCENE) : await browser.run(page, { ...SCENE, ...scene, module: `/emitted/${engine}-fog/${file}`, inputs: {} });
+        const className = name[0].toUpperCase() + name.slice(1);
+        const task = { ...SCENE, ...scene, className, functionName: name, inputs: {} };
+        const { rgba } = native
+            ? scenePanda3d(folder, className, SCENE)
+            : await browser.run(page, { ...task, module: `/emitted/${engine}-${name}-scene/${file(name)}` });
         // Drivers move vertices to a fraction of a pixel, by which the distances of the plane differ.
-        const found = compare(rgba, foggy(scene), 32, 2 ** -9);
+        const found = compare(rgba, expected(scene), 32, 2 ** -9);
         return { state: found.within === 1 ? "same" : "differs", most: found.most, limit: found.limit };
     } catch (error) {
         return { state: "failed", why: error.message.slice(0, 2000) };

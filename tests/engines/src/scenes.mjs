@@ -10,18 +10,26 @@ export const SCENE = { fov: 50, near: 0.5, far: 40, distance: 6, slope: 0.5, col
  * `native` where no page runs them.
  */
 export const SCENES = [
-    { name: "three, WebGLRenderer", engine: "three", page: "scene-three", file: "fog-pass.js" },
-    { name: "three, WebGLRenderer, orthographic", engine: "three", page: "scene-three", file: "fog-pass.js", parallel: true },
-    { name: "three, WebGLRenderer, reversed depth", engine: "three", page: "scene-three", file: "fog-pass.js", reversed: true },
-    { name: "three, WebGPURenderer", engine: "three", page: "scene-three", file: "fog-node.js", webgpu: true },
-    { name: "postprocessing", engine: "postprocessing", page: "scene-postprocessing", file: "fog-effect.js", opaque: true },
-    { name: "babylon, WebGL 2", engine: "babylon", page: "scene-babylon", file: "fog-post-process.js" },
-    { name: "babylon, WebGPU", engine: "babylon", page: "scene-babylon", file: "fog-post-process.js", webgpu: true },
+    { name: "three, WebGLRenderer", engine: "three", page: "scene-three", file: (k) => `${k}-pass.js` },
+    { name: "three, WebGLRenderer, orthographic", engine: "three", page: "scene-three", file: (k) => `${k}-pass.js`, parallel: true },
+    { name: "three, WebGLRenderer, reversed depth", engine: "three", page: "scene-three", file: (k) => `${k}-pass.js`, reversed: true },
+    { name: "three, WebGPURenderer", engine: "three", page: "scene-three", file: (k) => `${k}-node.js`, webgpu: true },
+    { name: "postprocessing", engine: "postprocessing", page: "scene-postprocessing", file: (k) => `${k}-effect.js`, opaque: true },
+    { name: "babylon, WebGL 2", engine: "babylon", page: "scene-babylon", file: (k) => `${k}-post-process.js` },
+    { name: "babylon, WebGPU", engine: "babylon", page: "scene-babylon", file: (k) => `${k}-post-process.js`, webgpu: true },
     { name: "panda3d", engine: "panda3d", native: "panda3d" },
 ];
 
+/** Planes and projection of the camera, as `kernels/lens.rs` has them. */
+function planes({ parallel }) {
+    const { fov, near, far, distance } = SCENE;
+    const up = Math.tan((fov * Math.PI) / 360) * (parallel ? distance : 1);
+    const texel = [near, far, HEIGHT / (WIDTH * up), up];
+    return Float32Array.from({ length: 4 * WIDTH * HEIGHT }, (_, k) => texel[k % 4]);
+}
+
 /** The scene in the fog of `kernels/fog.rs`, rows from above: RGB, and the distance in alpha. */
-export function foggy({ parallel, opaque }) {
+function foggy({ parallel, opaque }) {
     const { fov, distance, slope, color } = SCENE;
     const up = Math.tan((fov * Math.PI) / 360);
     const rgba = new Float32Array(4 * WIDTH * HEIGHT);
@@ -35,3 +43,9 @@ export function foggy({ parallel, opaque }) {
     }
     return rgba;
 }
+
+/** The kernels, the picture that each has to make, and the engines that have what it reads. */
+export const FILTERS = [
+    { name: "fog", expected: foggy, engines: SCENES.map(({ name }) => name) },
+    { name: "lens", expected: planes, engines: SCENES.map(({ name }) => name).filter((name) => /^(three|babylon)/.test(name)) },
+];
