@@ -28,6 +28,15 @@ function planes({ parallel }) {
     return Float32Array.from({ length: 4 * WIDTH * HEIGHT }, (_, k) => texel[k % 4]);
 }
 
+/** The target's size and each pixel's place, as `kernels/grid.rs` has them. */
+function places({ opaque }) {
+    const rgba = new Float32Array(4 * WIDTH * HEIGHT);
+    for (let y = 0; y < HEIGHT; y++) {
+        for (let x = 0; x < WIDTH; x++) rgba.set([WIDTH, HEIGHT, x, opaque ? Math.min(y, 1) : y], 4 * (y * WIDTH + x));
+    }
+    return rgba;
+}
+
 /** The scene in the fog of `kernels/fog.rs`, rows from above: RGB, and the distance in alpha. */
 function foggy({ parallel, opaque }) {
     const { fov, distance, slope, color } = SCENE;
@@ -47,5 +56,6 @@ function foggy({ parallel, opaque }) {
 /** The kernels, the picture that each has to make, and the engines that have what it reads. */
 export const FILTERS = [
     { name: "fog", expected: foggy, engines: SCENES.map(({ name }) => name) },
+    { name: "grid", expected: places, engines: SCENES.map(({ name }) => name) },
     { name: "lens", expected: planes, engines: SCENES.map(({ name }) => name).filter((name) => /^(three|babylon)/.test(name)) },
 ];
