@@ -1,10 +1,11 @@
 //! An engine: its folder, and the files that it makes of a kernel.
 
-use crate::context::{self, Context, ShaderScope};
+use crate::context::{self, Context};
 use crate::description::{Converted, Description, ShaderDescription, SizeSource};
 use crate::error::EngineError;
 use crate::fits::Misfit;
 use crate::inputs::Inputs;
+use crate::shader_context::{self, ShaderScope};
 use crate::{builtin, engine_names, fits, spelling};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -224,7 +225,7 @@ impl Engine {
                     inputs,
                     meanings: &self.description.meanings,
                 };
-                let context = context::shader_context(shader.text, &shader.manifest, &scope);
+                let context = shader_context::shader_context(shader.text, &shader.manifest, &scope);
                 (name, context)
             })
             .collect();

@@ -32,6 +32,7 @@ mod folder;
 mod inputs;
 pub mod meaning;
 mod render;
+mod shader_context;
 mod spelling;
 mod words;
 
