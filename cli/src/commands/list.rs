@@ -107,7 +107,7 @@ fn print_meanings(description: &Description) {
         outln!("\nYou set every input of a kernel by its own name.");
         return;
     }
-    outln!("\nInputs that it provides, by name or by `--bind NAME=MEANING` (`own`: you set it):");
+    outln!("\nInputs that it provides, by their names or by `--bind NAME=MEANING`:");
     for meaning in &MEANINGS {
         let Some(source) = description.meanings.get(meaning.name) else {
             continue;
