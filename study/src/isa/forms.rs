@@ -4,6 +4,7 @@ use super::Asking;
 use super::IsaStudyError;
 use crate::loops::forms::Forms;
 use crate::record::{FormKind, SpirvPath};
+use spirv::{LoopControl, Op};
 use std::path::Path;
 use std::process::Command;
 use straightline_codegen::emit::{Emitted, Target};
@@ -39,6 +40,7 @@ pub fn emit_forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>,
             let is_asked = match path {
                 SpirvPath::Naga => true,
                 SpirvPath::NagaBounded => has_loops,
+                SpirvPath::NagaKept | SpirvPath::NagaUnrolled => *kind == FormKind::Looped,
                 SpirvPath::Glslang => glslang.is_some(),
             };
             if is_asked {
@@ -79,7 +81,12 @@ fn emit_spirv(path: SpirvPath, kind: FormKind, compiled: &Compiled, glslang: Opt
         (Err(errors), ..) => (String::new(), Err(errors.first_message().to_owned())),
         (Ok(emitted), SpirvPath::Glslang, Some(program)) => ("main".to_owned(), by_glslang(program, &emitted)),
         (Ok(mut emitted), ..) => {
-            let module = emitted.files.remove(&Target::Spirv).unwrap_or_default();
+            let mut module = emitted.files.remove(&Target::Spirv).unwrap_or_default();
+            match path {
+                SpirvPath::NagaKept => set_loop_controls(&mut module, LoopControl::DONT_UNROLL),
+                SpirvPath::NagaUnrolled => set_loop_controls(&mut module, LoopControl::UNROLL),
+                _ => {}
+            }
             (emitted.manifest.entry_point, Ok(module))
         }
     };
@@ -91,6 +98,23 @@ fn emit_spirv(path: SpirvPath, kind: FormKind, compiled: &Compiled, glslang: Opt
         module,
     }
 }
+
+/// Sets the hint of every loop of a module, which naga leaves out.
+fn set_loop_controls(module: &mut [u8], control: LoopControl) {
+    let (words, _) = module.as_chunks_mut::<4>();
+    let mut at = HEADER;
+    while let Some(first) = words.get(at).map(|word| u32::from_le_bytes(*word)) {
+        let (opcode, length) = (first & 0xffff, (first >> 16) as usize);
+        // Its operands are the block after the loop, the block that continues it, and the hint.
+        if let (true, Some(hint)) = (opcode == Op::LoopMerge as u32, words.get_mut(at + 3)) {
+            *hint = control.bits().to_le_bytes();
+        }
+        at += length.max(1);
+    }
+}
+
+/// Words of a module before its first instruction.
+const HEADER: usize = 5;
 
 /// Translates the GLSL to SPIR-V by glslang.
 fn by_glslang(program: &Path, emitted: &Emitted) -> Result<Vec<u8>, String> {
@@ -112,5 +136,28 @@ fn by_glslang(program: &Path, emitted: &Emitted) -> Result<Vec<u8>, String> {
     match made.map_err(failed)? {
         (true, _, module) => module.map_err(failed),
         (false, said, _) => Err(String::from_utf8_lossy(&said).trim().to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_loop_gets_the_hint_and_nothing_else_changes() {
+        let wgsl = "@group(0) @binding(0) var<storage, read_write> a: array<u32>;
+            @compute @workgroup_size(1) fn main() {
+                for (var i = 0u; i < 4u; i++) { for (var k = 0u; k < 3u; k++) { a[i] += k; } }
+            }";
+        let plain = by_naga(wgsl).expect("a module");
+        let mut hinted = plain.clone();
+        set_loop_controls(&mut hinted, LoopControl::DONT_UNROLL);
+        let differ: Vec<(u8, u8)> = plain
+            .iter()
+            .zip(&hinted)
+            .map(|(a, b)| (*a, *b))
+            .filter(|(a, b)| a != b)
+            .collect();
+        assert_eq!(differ, [(0, 2); 2]);
     }
 }

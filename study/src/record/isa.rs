@@ -15,19 +15,31 @@ pub enum SpirvPath {
     Naga,
     /// From WGSL, with a counter that bounds every loop, as wgpu compiles other shaders.
     NagaBounded,
+    /// From WGSL without that counter, with a hint to the driver that loops shall stay.
+    NagaKept,
+    /// From WGSL without that counter, with a hint to the driver that loops shall be unrolled.
+    NagaUnrolled,
     /// From GLSL, as most engines on Vulkan do.
     Glslang,
 }
 
 impl SpirvPath {
     /// Every path.
-    pub const ALL: [SpirvPath; 3] = [SpirvPath::Naga, SpirvPath::NagaBounded, SpirvPath::Glslang];
+    pub const ALL: [SpirvPath; 5] = [
+        SpirvPath::Naga,
+        SpirvPath::NagaBounded,
+        SpirvPath::NagaKept,
+        SpirvPath::NagaUnrolled,
+        SpirvPath::Glslang,
+    ];
 
     /// Name for readers.
     pub fn display_name(self) -> &'static str {
         match self {
             SpirvPath::Naga => "naga",
             SpirvPath::NagaBounded => "naga, bounded",
+            SpirvPath::NagaKept => "naga, not to be unrolled",
+            SpirvPath::NagaUnrolled => "naga, to be unrolled",
             SpirvPath::Glslang => "glslang",
         }
     }

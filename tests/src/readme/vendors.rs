@@ -78,6 +78,8 @@ pub fn in_short(record: &IsaRecord) -> Table {
     let ways = [
         ("naga", SpirvPath::Naga),
         ("naga, with wgpu's counter", SpirvPath::NagaBounded),
+        ("naga, with the hint to keep loops", SpirvPath::NagaKept),
+        ("naga, with the hint to unroll", SpirvPath::NagaUnrolled),
         ("glslang", SpirvPath::Glslang),
     ];
     let rows = ways.map(|(title, path)| {
