@@ -19,10 +19,11 @@ fn arc(h: f32, n: f32) -> f32 {
     0.25 * (-(2.0 * h - n).cos() + n.cos() + 2.0 * h * n.sin())
 }
 
+/// `depth` is the distance along the view; `normal` is in view space with y up and z towards the viewer.
 pub fn gtao(depth: &Frame<f32>, normal: &Frame<Vec3>, radius: f32, focal: f32, pixel: IVec2) -> Vec4 {
     let here = position(depth, pixel, focal);
     let view = -here.normalize();
-    let facing = normal.load(pixel);
+    let facing = normal.load(pixel) * vec3(1.0, -1.0, -1.0);
     // Radius in pixels at this depth.
     let reach = (radius * focal / here.z).clamp(1.0, 64.0);
     let turn = fract(52.982_918 * fract(0.06711056 * pixel.x as f32 + 0.00583715 * pixel.y as f32));

@@ -54,6 +54,7 @@ fn trace(camera: &Camera, depth: &Frame<f32>, from: Vec3, direction: Vec3) -> Op
     None
 }
 
+/// `depth` is the distance along the view; `normal` is in view space with y up and z towards the viewer.
 pub fn screen_space_reflections(
     color: &Frame<Vec4>,
     depth: &Frame<f32>,
@@ -67,7 +68,8 @@ pub fn screen_space_reflections(
     };
     let here = color.load(pixel);
     let from = camera.position(pixel, depth.load(pixel));
-    let facing = normal.load(pixel);
+    // Into the camera's frame: y down, z away.
+    let facing = normal.load(pixel) * vec3(1.0, -1.0, -1.0);
     let incoming = from.normalize();
     let reflected = incoming - 2.0 * incoming.dot(facing) * facing;
     let Some(at) = trace(&camera, depth, from + facing * 0.02, reflected) else {

@@ -30,7 +30,8 @@ options! {
     }
 }
 
-/// Openness of each surface in grey. `depth` is the distance along the view; `normal` is in view space.
+/// Openness of each surface in grey. `depth` is the distance along the view; `normal` is in view space:
+/// x right, y up, z towards the viewer.
 pub fn ssao(cfg: &Ssao, depth: &Frame<f32>, normal: &Frame<Vec3>, pixel: IVec2) -> Vec4 {
     let here = depth.load(pixel);
     let up = normal.load(pixel).normalize();
@@ -45,7 +46,8 @@ pub fn ssao(cfg: &Ssao, depth: &Frame<f32>, normal: &Frame<Vec3>, pixel: IVec2) 
     for point in POINTS {
         let away = (tangent * point.x + bitangent * point.y + up * point.z) * cfg.radius;
         let reach = cfg.focal / here;
-        let offset = round(away.truncate() * reach).as_ivec2();
+        // Rows go down where view space goes up.
+        let offset = round(away.truncate() * vec2(reach, -reach)).as_ivec2();
         let behind = here - away.z - depth.load(pixel + offset);
         // A surface that is much nearer belongs to another object.
         let near = 1.0 - smoothstep(cfg.radius, 2.0 * cfg.radius, behind.abs());

@@ -66,7 +66,8 @@ fn draw_test_layer(texture: &Texture, size: UVec2, layer: u32) -> Frame<Vec4> {
         if is_depth {
             Vec4::splat(surface.depth)
         } else if is_normal {
-            surface.normal.extend(0.0)
+            // Of view space, where y is up.
+            (surface.normal * vec3(1.0, -1.0, 1.0)).extend(0.0)
         } else if texture.components == 1 {
             Vec4::splat(surface.color.x)
         } else {

@@ -261,18 +261,11 @@ fn atrous() {
 #[test]
 fn gtao() {
     let shader = Shader::new("gtao", SIZE).number("radius", 0.8).number("focal", 80.0);
-    let (depth, normal) = (shader.flat("depth"), towards_the_eye(&shader.normals("normal")));
-    let shader = shader.image("normal", |uv| normal.load((uv * SIZE.as_vec2()).as_ivec2()).extend(0.0));
+    let (depth, normal) = (shader.flat("depth"), shader.normals("normal"));
     let (radius, focal) = (shader.float("radius"), shader.float("focal"));
     let native = |at| shaders::gtao::gtao(&depth, &normal, radius, focal, at);
     // The pixel that a step falls on depends on rounding.
     shader.check(Within(1.0e-2, 0.02), Within(2.0e-3, 0.02), native, light::gtao);
-}
-
-/// The test card's normals point where z is the eye; these shaders look along z.
-fn towards_the_eye(normals: &Frame<Vec3>) -> Frame<Vec3> {
-    let turned = normals.texels().iter().map(|n| vec3(n.x, n.y, -n.z));
-    Frame::new(normals.size(), turned.collect())
 }
 
 #[test]
@@ -337,8 +330,7 @@ fn bokeh() {
 #[test]
 fn screen_space_reflections() {
     let shader = Shader::new("screen_space_reflections", SIZE).number("focal", 80.0);
-    let (depth, normal) = (shader.flat("depth"), towards_the_eye(&shader.normals("normal")));
-    let shader = shader.image("normal", |uv| normal.load((uv * SIZE.as_vec2()).as_ivec2()).extend(0.0));
+    let (depth, normal) = (shader.flat("depth"), shader.normals("normal"));
     let native = |at| {
         let color = shader.frame("color");
         shaders::screen_space_reflections::screen_space_reflections(color, &depth, &normal, shader.float("focal"), at)

@@ -133,6 +133,28 @@ fn ssao() {
     });
 }
 
+/// A surface that faces up sees what is above it in the picture, where rows are fewer.
+#[test]
+fn ssao_looks_where_the_normal_points() {
+    let cfg = ssao::Ssao {
+        radius: 1.0,
+        bias: 0.05,
+        focal: 100.0,
+    };
+    let middle = SIZE.as_ivec2() / 2;
+    let open_with = |normal: Vec3, is_near: &dyn Fn(IVec2) -> bool| {
+        let pixels = (0..SIZE.y as i32).flat_map(|y| (0..SIZE.x as i32).map(move |x| ivec2(x, y)));
+        let depths = pixels.map(|at| if is_near(at - middle) { 9.0 } else { 10.0 }).collect();
+        let normals = vec![normal; (SIZE.x * SIZE.y) as usize];
+        ssao::ssao(&cfg, &Frame::new(SIZE, depths), &Frame::new(SIZE, normals), middle).x
+    };
+    let (up, right) = (vec3(0.0, 0.6, 0.8), vec3(0.6, 0.0, 0.8));
+    let (above, below) = (|at: IVec2| at.y < 0, |at: IVec2| at.y > 0);
+    assert!(open_with(up, &above) < open_with(up, &below) - 0.1);
+    let (left_of, right_of) = (|at: IVec2| at.x < 0, |at: IVec2| at.x > 0);
+    assert!(open_with(right, &right_of) < open_with(right, &left_of) - 0.1);
+}
+
 #[test]
 fn joint_bilateral_upsampling() {
     let cfg = joint_bilateral_upsampling::Upsampling::default();

@@ -4,6 +4,9 @@ use super::world::{Picture, World, interleaved, mix};
 use glam::{DVec2, DVec3, DVec4};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+/// Turns a vector of view space into the frame of rows and depths: y down, z away from the viewer.
+const DOWN_AND_AWAY: DVec3 = DVec3::new(1.0, -1.0, -1.0);
+
 /// Position of a pixel in front of the eye.
 fn position(w: &World, depth: &Picture, x: i64, y: i64, beyond: (i64, i64)) -> DVec3 {
     let z = depth.r(x, y);
@@ -17,7 +20,7 @@ pub fn gtao(w: &World, x: i64, y: i64) -> DVec4 {
     let (depth, normals) = (w.picture("depth"), w.picture("normal"));
     let here = position(w, &depth, x, y, (x, y));
     let view = -here.normalize();
-    let normal = normals.rgb(x, y);
+    let normal = normals.rgb(x, y) * DOWN_AND_AWAY;
     let reach = (w.number("radius") * w.number("focal") / here.z).clamp(1.0, 64.0);
     let mut visible = 0.0;
     for slice in 0..3 {
@@ -110,7 +113,7 @@ pub fn screen_space_reflections(w: &World, x: i64, y: i64) -> DVec4 {
     let (colour, depth, normals) = (w.picture("color"), w.picture("depth"), w.picture("normal"));
     let focal = w.number("focal");
     let from = position(w, &depth, x, y, (x, y));
-    let normal = normals.rgb(x, y);
+    let normal = normals.rgb(x, y) * DOWN_AND_AWAY;
     let ray = from.normalize().reflect(normal);
     let start = from + normal * 0.02;
     let length = if start.z + ray.z * 4.0 < 0.2 {
