@@ -1,5 +1,6 @@
 //! Figures that the compiler reports, and counts of its machine code.
 
+use super::names::Common;
 use ash::vk::DriverId;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -58,118 +59,6 @@ fn is_zero(n: &u64) -> bool {
     *n == 0
 }
 
-/// Figures that drivers have in common.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Common {
-    Instructions,
-    Registers,
-    ScalarRegisters,
-    Spilled,
-    AtOnce,
-    CodeSize,
-    SharedMemory,
-    Latency,
-    InverseThroughput,
-    Loops,
-}
-
-/// Drivers, and their names for the common figures.
-type NamesOf = (&'static [DriverId], &'static [(&'static str, Common)]);
-
-/// Mesa's driver for Apple's GPUs, which `ash` does not name.
-const HONEYKRISP: DriverId = DriverId::from_raw(26);
-
-/// Names of drivers for the common figures, in small letters: versions of Mesa differ in capitals and words.
-const NAMES: [NamesOf; 7] = [
-    (
-        &[DriverId::MESA_RADV],
-        &[
-            ("instructions", Common::Instructions),
-            ("vgprs", Common::Registers),
-            ("sgprs", Common::ScalarRegisters),
-            ("spilled vgprs", Common::Spilled),
-            ("spilled sgprs", Common::Spilled),
-            ("subgroups per simd", Common::AtOnce),
-            ("code size", Common::CodeSize),
-            ("lds size", Common::SharedMemory),
-            ("latency", Common::Latency),
-            ("inverse throughput", Common::InverseThroughput),
-        ],
-    ),
-    (
-        &[DriverId::MESA_NVK],
-        &[
-            ("instructions", Common::Instructions),
-            ("instruction count", Common::Instructions),
-            ("gprs", Common::Registers),
-            ("number of gprs", Common::Registers),
-            ("spills to memory", Common::Spilled),
-            ("max warps/sm", Common::AtOnce),
-            ("code size", Common::CodeSize),
-            ("cycles", Common::Latency),
-            ("static cycle count", Common::Latency),
-        ],
-    ),
-    (
-        &[DriverId::INTEL_OPEN_SOURCE_MESA],
-        &[
-            ("instructions", Common::Instructions),
-            ("instruction count", Common::Instructions),
-            ("max live registers", Common::Registers),
-            ("spills", Common::Spilled),
-            ("spill count", Common::Spilled),
-            ("max dispatch width", Common::AtOnce),
-            ("workgroup memory size", Common::SharedMemory),
-            ("cycles", Common::Latency),
-            ("cycle count", Common::Latency),
-            ("loops", Common::Loops),
-            ("loop count", Common::Loops),
-        ],
-    ),
-    (
-        &[DriverId::MESA_TURNIP],
-        &[
-            ("instructions", Common::Instructions),
-            ("instruction count", Common::Instructions),
-            ("registers used", Common::Registers),
-            ("stp count", Common::Spilled),
-            ("max waves per core", Common::AtOnce),
-            ("code size", Common::CodeSize),
-            ("loops", Common::Loops),
-        ],
-    ),
-    (
-        &[HONEYKRISP, DriverId::MESA_PANVK],
-        &[
-            ("instructions", Common::Instructions),
-            ("instruction count", Common::Instructions),
-            ("gprs", Common::Registers),
-            ("registers", Common::Registers),
-            ("spills", Common::Spilled),
-            ("threads", Common::AtOnce),
-            ("code size", Common::CodeSize),
-            ("loops", Common::Loops),
-        ],
-    ),
-    (
-        &[DriverId::MESA_V3DV, DriverId::IMAGINATION_OPEN_SOURCE_MESA],
-        &[
-            ("instructions", Common::Instructions),
-            ("instruction count", Common::Instructions),
-            ("temps", Common::Registers),
-            ("spills", Common::Spilled),
-            ("tmu spills", Common::Spilled),
-            ("threads", Common::AtOnce),
-            ("thread count", Common::AtOnce),
-            ("loops", Common::Loops),
-        ],
-    ),
-    (
-        &[DriverId::NVIDIA_PROPRIETARY],
-        &[("register count", Common::Registers), ("binary size", Common::CodeSize)],
-    ),
-];
-
 impl Figures {
     /// Names each figure for readers, in the order of the fields; `shared` comes last.
     pub fn named_figures(&self) -> [(&'static str, u64); 14] {
@@ -224,12 +113,9 @@ impl Figures {
 
     /// Takes one of a driver's figures, by its own name for it.
     pub(crate) fn record_figure(&mut self, driver: DriverId, name: &str, value: u64) {
-        let lower = name.to_lowercase();
-        let names = NAMES.iter().filter(|(drivers, _)| drivers.contains(&driver));
-        let mut found = names.flat_map(|(_, names)| names.iter());
-        let Some((_, common)) = found.find(|(known, _)| *known == lower) else {
+        let Some(common) = Common::find(driver, name) else {
             // A hash is no figure.
-            if !lower.contains("hash") {
+            if !name.to_lowercase().contains("hash") {
                 self.own.insert(name.to_owned(), value);
             }
             return;
@@ -293,6 +179,7 @@ fn is_loop_header(line: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::names::HONEYKRISP;
     use super::*;
 
     #[test]

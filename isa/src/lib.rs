@@ -25,6 +25,7 @@ mod drivers;
 mod figures;
 mod gpu;
 mod interface;
+mod names;
 mod pipeline;
 mod serve;
 #[cfg(test)]
