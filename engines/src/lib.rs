@@ -59,11 +59,11 @@ pub fn write(kernel: &Kernel, settings: &Settings, engine: &str, out: &Path) -> 
     write_bound(kernel, settings, engine, &[], out)
 }
 
-/// As [`write`], with a [`Meaning`] or [`OWN`] for inputs whose names do not say theirs: `[("before", "color")]`.
+/// As [`write()`], with a [`Meaning`] or [`OWN`] for inputs whose names do not say theirs: `[("before", "color")]`.
 ///
 /// # Errors
 ///
-/// As [`write`]; and if there is no such input or meaning.
+/// As [`write()`]; and if there is no such input or meaning.
 pub fn write_bound(
     kernel: &Kernel,
     settings: &Settings,
