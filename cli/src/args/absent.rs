@@ -8,7 +8,7 @@ use std::ffi::OsString;
 use std::str::FromStr;
 
 /// Note below the list of commands in the help.
-pub const ABOUT: &str = "This build lacks budget, quads, figures, study and tune: they need `--features study`.";
+pub const ABOUT: &str = "This build lacks budget, quads, figures, study, tune and isa: they need `--features study`.";
 
 // All arguments of the command, `--help` included: every call gets the same answer.
 #[derive(Debug, Args)]
