@@ -22,7 +22,7 @@ pub enum IsaError {
     NoDriver {
         /// The GPU that was asked for.
         gpu: Gpu,
-        /// What to install.
+        /// Packages to install.
         install: &'static str,
     },
     /// The library that stands in for the kernel's part of the driver is not installed.
@@ -35,7 +35,7 @@ pub enum IsaError {
         gpu: Gpu,
         /// Name of the library.
         shim: &'static str,
-        /// What to install.
+        /// Packages to install.
         install: &'static str,
     },
     /// The process could not be started, or it ended.
@@ -58,6 +58,13 @@ pub enum IsaError {
     /// The shader is refused.
     #[error("for {0}: {1}")]
     Shader(Gpu, String),
+}
+
+impl IsaError {
+    /// Returns whether the reason holds for all GPUs of the vendor: something is not installed.
+    pub fn is_of_vendor(&self) -> bool {
+        matches!(self, IsaError::NoDriver { .. } | IsaError::NoShim { .. })
+    }
 }
 
 /// A compiler for one GPU.

@@ -102,13 +102,18 @@ impl Figures {
     }
 
     /// Returns the cost that variants are compared by: cycles of a wave among many if the driver states them, else instructions.
-    /// Those say nothing of loops: `None` if some are left.
+    /// Instructions say nothing of loops: `None` if some are left.
     pub fn cost(&self) -> Option<u64> {
-        match (self.inverse_throughput, self.loops) {
-            (0, Some(1..)) => None,
-            (0, _) => Some(self.instructions),
-            (cycles, _) => Some(cycles),
+        match self.inverse_throughput {
+            0 if self.keeps_loops() => None,
+            0 => Some(self.instructions),
+            cycles => Some(cycles),
         }
+    }
+
+    /// Returns whether a loop is left in the compiled shader, as far as the driver says.
+    pub fn keeps_loops(&self) -> bool {
+        self.loops.is_some_and(|loops| loops > 0)
     }
 
     /// Takes one of a driver's figures, by its own name for it.

@@ -19,9 +19,9 @@ pub(crate) struct Vendor {
     pub forced: Option<&'static str>,
     /// Environment variables that the driver needs besides.
     pub further: &'static [(&'static str, &'static str)],
-    /// What `Figures::occupancy` counts.
+    /// Unit of `Figures::occupancy`.
     pub at_once: &'static str,
-    /// What to install.
+    /// Packages to install.
     pub install: &'static str,
     /// GPUs, oldest first.
     pub models: &'static [Model],

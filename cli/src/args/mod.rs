@@ -36,7 +36,7 @@ pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};
 pub use straightline_isa::Gpu;
 #[cfg(feature = "study")]
 pub use study::{
-    AllArgs, CommonArgs, CompilersArgs, ErrorArgs, FilmArgs, FrameArgs, HardArgs, IsaArgs, LoopsArgs, MotionArgs,
+    AllArgs, CommonArgs, CompilersArgs, ErrorArgs, FilmArgs, FrameArgs, Gpus, HardArgs, IsaArgs, LoopsArgs, MotionArgs,
     Study, StudyArgs,
 };
 #[cfg(feature = "study")]
@@ -140,10 +140,7 @@ pub struct EmitArgs {
 
 /// Reads an input's name and its meaning.
 fn parse_bind(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((name, meaning)) if !name.is_empty() && !meaning.is_empty() => Ok((name.to_owned(), meaning.to_owned())),
-        _ => Err("write NAME=MEANING, such as `scene=color`".to_owned()),
-    }
+    pair(text).map_err(|_| "write NAME=MEANING, such as `scene=color`".to_owned())
 }
 
 impl EmitArgs {

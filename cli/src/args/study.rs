@@ -3,6 +3,7 @@
 use super::{AdapterArgs, MergeArgs, RecordsArgs, SweepArgs, size};
 use clap::{Args, Subcommand};
 use glam::{UVec2, Vec2};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::str::FromStr;
 use straightline_codegen::Precision;
@@ -115,6 +116,14 @@ pub struct IsaArgs {
 /// GPUs of one argument.
 #[derive(Clone, Debug)]
 pub struct Gpus(pub Vec<Gpu>);
+
+impl Gpus {
+    /// Returns the GPUs of all arguments, each once.
+    pub fn distinct(all: &[Gpus]) -> Vec<Gpu> {
+        let gpus: BTreeSet<Gpu> = all.iter().flat_map(|gpus| gpus.0.iter().copied()).collect();
+        gpus.into_iter().collect()
+    }
+}
 
 impl FromStr for Gpus {
     type Err = String;

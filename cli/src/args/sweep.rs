@@ -1,7 +1,6 @@
 //! Arguments of `study sweep` and of the commands that read its records.
 
-use super::study::Gpus;
-use super::{pair, size};
+use super::{Gpus, pair, size};
 use clap::{Args, ValueHint};
 use glam::UVec2;
 use std::path::PathBuf;

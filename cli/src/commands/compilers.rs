@@ -1,10 +1,10 @@
 //! `isa`: GPUs that this machine can compile for, without having them.
 
-use super::study::isa::SERVE;
-use crate::args::CompilersArgs;
+use super::study::isa::start_compiler;
+use crate::args::{CompilersArgs, Gpus};
 use crate::failure::Failure;
 use serde_json::json;
-use straightline_isa::{Compiler, Gpu, IsaError};
+use straightline_isa::{Gpu, IsaError};
 use straightline_table::{Column, Table};
 
 /// A GPU, and the driver's name for it or the reason why it cannot be compiled for.
@@ -12,12 +12,11 @@ type Answer = (Gpu, Result<String, IsaError>);
 
 /// Starts the compiler for every GPU, and prints which of them answered.
 pub fn list_compilers(args: &CompilersArgs) -> Result<(), Failure> {
-    let program = std::env::current_exe().map_err(Failure::from_error)?;
-    let mut gpus: Vec<Gpu> = args.gpu.iter().flat_map(|gpus| gpus.0.clone()).collect();
+    let mut gpus = Gpus::distinct(&args.gpu);
     if gpus.is_empty() {
         gpus = Gpu::all().chain([Gpu::DEVICE]).collect();
     }
-    let ask = |gpu| Compiler::start(&program, &[SERVE], gpu).map(|compiler| compiler.device().to_owned());
+    let ask = |gpu| start_compiler(gpu).map(|compiler| compiler.device().to_owned());
     let answers: Vec<Answer> = gpus.into_iter().map(|gpu| (gpu, ask(gpu))).collect();
     match args.json {
         true => print_json(&answers),
@@ -54,10 +53,9 @@ fn print_tables(answers: &[Answer]) {
     for (gpu, answer) in answers {
         let Err(why) = answer else { continue };
         // A vendor without a driver is one line, not one for each of its GPUs.
-        let is_whole_vendor = matches!(why, IsaError::NoDriver { .. } | IsaError::NoShim { .. });
-        if !is_whole_vendor || said_of != Some(gpu.vendor_name()) {
+        if !why.is_of_vendor() || said_of != Some(gpu.vendor_name()) {
             outln!("{why}");
         }
-        said_of = is_whole_vendor.then_some(gpu.vendor_name());
+        said_of = why.is_of_vendor().then_some(gpu.vendor_name());
     }
 }

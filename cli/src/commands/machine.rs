@@ -1,11 +1,11 @@
 //! Statistics of a GPU's compiler for a shader, for `explain --isa`.
 
-use super::study::isa::SERVE;
+use super::study::isa::start_compiler;
 use crate::args::Gpu;
 use crate::failure::Failure;
 use serde_json::{Value, json};
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_isa::{Compiler, Report};
+use straightline_isa::Report;
 use straightline_table::Table;
 
 /// Machine code, and the compiler's name for its GPU.
@@ -17,8 +17,7 @@ pub struct Machine {
 
 /// Compiles the shader for a GPU.
 pub fn ask(emitted: &Emitted, gpu: Gpu) -> Result<Machine, Failure> {
-    let program = std::env::current_exe().map_err(Failure::from_error)?;
-    let mut compiler = Compiler::start(&program, &[SERVE], gpu).map_err(Failure::from_error)?;
+    let mut compiler = start_compiler(gpu).map_err(Failure::from_error)?;
     let report = compiler
         .compile(&emitted.files[&Target::Spirv], &emitted.manifest.entry_point)
         .map_err(Failure::from_error)?;

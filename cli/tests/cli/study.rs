@@ -327,7 +327,7 @@ fn gpus_that_can_be_compiled_for_are_listed() {
         .as_str()
         .expect("libvulkan1 and mesa-vulkan-drivers are installed");
     assert!(device.to_lowercase().contains("navi21"), "{device}");
-    assert!(of("device")["refused"].is_string(), "tests run on software drivers");
+    assert_eq!(of("device")["about"], "the GPU of this machine, by its own driver");
     // One line for each vendor without a driver, with what helps.
     let text = finishes(&["isa", "--list"]);
     assert!(text.contains("RDNA 2, 2020"), "{text}");

@@ -127,7 +127,7 @@ impl Question {
                 Ok(compiler) => compilers.push(compiler),
                 Err(why) => {
                     // One line for a vendor without a driver, not one for each of its GPUs.
-                    if matches!(why, IsaError::NoDriver { .. } | IsaError::NoShim { .. }) {
+                    if why.is_of_vendor() {
                         without_driver = Some(gpu.vendor_name());
                     }
                     absent.insert(gpu, why.to_string());

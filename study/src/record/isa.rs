@@ -114,10 +114,22 @@ impl Record for IsaRecord {
 }
 
 impl IsaRecord {
+    /// Returns the names of the kernels, in the order of the record.
+    pub fn kernels(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = self.shaders.iter().map(|asked| asked.kernel.as_str()).collect();
+        names.dedup();
+        names
+    }
+
+    /// Returns a form of a kernel by a path.
+    pub fn shader(&self, kernel: &str, form: FormKind, path: SpirvPath) -> Option<&Asked> {
+        let is = |asked: &&Asked| asked.kernel == kernel && asked.form == form && asked.path == path;
+        self.shaders.iter().find(is)
+    }
+
     /// Returns the figures of a form of a kernel by the first GPU.
     pub fn figures(&self, kernel: &str, form: FormKind, path: SpirvPath) -> Option<&Figures> {
-        let is = |asked: &&Asked| asked.kernel == kernel && asked.form == form && asked.path == path;
-        self.shaders.iter().find(is)?.figures.values().next()
+        self.shader(kernel, form, path)?.figures.values().next()
     }
 
     /// Returns the figures of another form of a kernel with the same options, by naga and the first GPU.

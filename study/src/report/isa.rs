@@ -1,6 +1,6 @@
 //! Section on the figures of GPU compilers.
 
-use crate::record::{Asked, FormKind, IsaRecord, Record, SpirvPath};
+use crate::record::{FormKind, IsaRecord, Record, SpirvPath};
 use serde::Serialize;
 use straightline_isa::Gpu;
 
@@ -36,15 +36,11 @@ const DEARER: f64 = 1.1;
 
 impl Ratio {
     fn of(record: &IsaRecord, kernel: &str, gpu: &Gpu) -> Option<Ratio> {
-        let find = |form, path| {
-            let is = |asked: &&Asked| asked.kernel == kernel && asked.form == form && asked.path == path;
-            record.shaders.iter().find(is)?.figures.get(gpu)
-        };
+        let find = |form, path| record.shader(kernel, form, path)?.figures.get(gpu);
         let unrolled = find(FormKind::Full, SpirvPath::Naga)?.cost()?;
         let looped = find(FormKind::Looped, SpirvPath::NagaBounded)?;
         let unit = gpu.cost_unit();
-        let is_kept = looped.loops.is_some_and(|loops| loops > 0);
-        let Some(cost) = looped.cost().filter(|_| !is_kept) else {
+        let Some(cost) = looped.cost().filter(|_| !looped.keeps_loops()) else {
             return Some(Ratio {
                 text: "L".to_owned(),
                 class: "beyond",
@@ -62,13 +58,11 @@ impl Ratio {
 
 /// Rows of the chart, for a record of several GPUs.
 fn chart_rows(record: &IsaRecord) -> Vec<(String, Vec<Ratio>)> {
-    let mut kernels: Vec<&str> = record.shaders.iter().map(|asked| asked.kernel.as_str()).collect();
-    kernels.dedup();
     let row = |kernel: &&str| {
         let each = record.devices.keys().map(|gpu| Ratio::of(record, kernel, gpu));
         Some(((*kernel).to_owned(), each.collect::<Option<Vec<_>>>()?))
     };
-    kernels.iter().filter_map(row).collect()
+    record.kernels().iter().filter_map(row).collect()
 }
 
 pub(super) fn build_section(record: &IsaRecord) -> Isa {

@@ -51,8 +51,6 @@ pub fn workgroups(squares: &LoopsRecord, rows: &LoopsRecord) -> Table {
 
 /// Registers and bytes of code of each kernel, unrolled and by three ways to leave its loops to the compiler.
 pub fn registers(record: &IsaRecord) -> Table {
-    let mut kernels: Vec<&str> = record.shaders.iter().map(|asked| asked.kernel.as_str()).collect();
-    kernels.dedup();
     let has_loops = |kernel: &&str| record.figures(kernel, FormKind::Looped, SpirvPath::Naga).is_some();
     let ways = [
         ("**unrolled**", FormKind::Full, SpirvPath::Naga),
@@ -69,7 +67,7 @@ pub fn registers(record: &IsaRecord) -> Table {
         let (registers, bytes) = (figures.vector_registers, figures.code_size);
         format!("{registers} ({:.1} kB{spilled})", bytes as f64 / 1000.0)
     };
-    Table::of(kernels.into_iter().filter(has_loops))
+    Table::of(record.kernels().into_iter().filter(has_loops))
         .column("kernel", |kernel| *kernel)
         .columns(
             ways,

@@ -6,8 +6,6 @@ use straightline_table::{Cell, Table};
 
 /// Each kernel on one family: the unrolled form in full, of looped forms cycles and branches.
 pub fn cycles(record: &IsaRecord) -> Table {
-    let mut names: Vec<&str> = record.shaders.iter().map(|asked| asked.kernel.as_str()).collect();
-    names.dedup();
     let unrolled = |name: &str, figure: fn(&Figures) -> u64| {
         record
             .figures(name, FormKind::Full, SpirvPath::Naga)
@@ -18,7 +16,7 @@ pub fn cycles(record: &IsaRecord) -> Table {
         let figures = record.figures(name, form, path);
         figures.map(|figures| format!("{}, {}", figures.inverse_throughput, figures.branches))
     };
-    Table::of(names)
+    Table::of(record.kernels())
         .column("kernel", |name| *name)
         .column("instructions", |name| unrolled(name, |f| f.instructions))
         .column("memory", |name| unrolled(name, |f| f.memory))

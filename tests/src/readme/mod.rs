@@ -96,7 +96,7 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "tiles-times" => Ok(tiles::times(&read(files, 0)?)),
         "isa" => Ok(isa::cycles(&read(files, 0)?)),
         "vendors" => vendors::loops(&read(files, 0)?),
-        "vendors-in-short" => Ok(vendors::in_short(&read(files, 0)?)),
+        "vendors-in-short" => vendors::in_short(&read(files, 0)?),
         "vendors-rivals" => Ok(vendors::rivals(&read(files, 0)?)),
         "vendors-registers" => Ok(vendors::registers(&read(files, 0)?)),
         "fast" => Ok(fast::mathematics(&read(files, 0)?, &read(files, 1)?)),

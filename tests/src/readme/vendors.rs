@@ -2,6 +2,7 @@
 
 use super::rank::{pearson, ranks};
 use straightline_isa::{Figures, Gpu};
+use straightline_study::loops::list_subjects;
 use straightline_study::record::{Asked, FormKind, IsaRecord, SpirvPath};
 use straightline_table::Table;
 
@@ -26,20 +27,15 @@ const WAYS: [(FormKind, SpirvPath); 4] = [
 /// Kernels whose registers are shown.
 const KERNELS: [&str; 4] = ["SRAA 4", "SRAA 16", "bilateral", "kuwahara"];
 
-fn find<'a>(record: &'a IsaRecord, kernel: &str, (form, path): (FormKind, SpirvPath)) -> Option<&'a Asked> {
-    let mut all = record.shaders.iter();
-    all.find(|asked| asked.kernel == kernel && asked.form == form && asked.path == path)
-}
-
 /// Cycles if the compiler states those of a wave among many, else instructions; `L` where a loop is left.
 fn cost(figures: &Figures) -> String {
     let cost = match figures.inverse_throughput {
         0 => figures.instructions,
         cycles => cycles,
     };
-    match figures.loops {
-        Some(1..) => format!("{cost} L"),
-        _ => cost.to_string(),
+    match figures.keeps_loops() {
+        true => format!("{cost} L"),
+        false => cost.to_string(),
     }
 }
 
@@ -49,16 +45,15 @@ pub fn loops(record: &IsaRecord) -> Result<Table, String> {
         .iter()
         .map(|(gpu, title)| Ok((gpu.parse()?, *title)))
         .collect::<Result<_, String>>()?;
-    let mut kernels: Vec<&str> = record.shaders.iter().map(|asked| asked.kernel.as_str()).collect();
-    kernels.dedup();
-    Ok(Table::of(kernels)
+    Ok(Table::of(record.kernels())
         .column("kernel", |kernel| *kernel)
         .columns(
             shown,
             |(_, title)| *title,
             |kernel, (gpu, _)| {
-                let cells = WAYS.iter().enumerate().map(|(k, way)| {
-                    let cost = find(record, kernel, *way)
+                let cells = WAYS.iter().enumerate().map(|(k, (form, path))| {
+                    let cost = record
+                        .shader(kernel, *form, *path)
                         .and_then(|asked| asked.figures.get(gpu))
                         .map(cost);
                     match (k, cost) {
@@ -74,7 +69,14 @@ pub fn loops(record: &IsaRecord) -> Result<Table, String> {
 }
 
 /// Each way of a loop to SPIR-V: how many kernels' loops the compilers keep, and what the others cost over the unrolled text.
-pub fn in_short(record: &IsaRecord) -> Table {
+///
+/// # Errors
+///
+/// A built-in kernel is missing.
+pub fn in_short(record: &IsaRecord) -> Result<Table, String> {
+    // A record of all has further kernels, which make no such comparison.
+    let studied = list_subjects(false).map_err(|errors| errors.first_message().to_owned())?;
+    let is_studied = |asked: &&Asked| studied.iter().any(|subject| subject.name == asked.kernel);
     let ways = [
         ("naga", SpirvPath::Naga),
         ("naga, with wgpu's counter", SpirvPath::NagaBounded),
@@ -87,8 +89,8 @@ pub fn in_short(record: &IsaRecord) -> Table {
             .shaders
             .iter()
             .filter(|asked| asked.form == FormKind::Looped && asked.path == path);
-        let looped: Vec<&Asked> = looped.filter(|asked| is_of_loop_study(record, asked)).collect();
-        let is_kept = |asked: &Asked, gpu: &Gpu| asked.figures.get(gpu).is_some_and(|f| f.loops.is_some_and(|n| n > 0));
+        let looped: Vec<&Asked> = looped.filter(is_studied).collect();
+        let is_kept = |asked: &Asked, gpu: &Gpu| asked.figures.get(gpu).is_some_and(Figures::keeps_loops);
         let kept = record
             .devices
             .keys()
@@ -100,7 +102,7 @@ pub fn in_short(record: &IsaRecord) -> Table {
             .flat_map(|gpu| looped.iter().map(move |asked| (gpu, *asked)))
             .filter(|(gpu, asked)| !is_kept(asked, gpu))
             .filter_map(|(gpu, asked)| {
-                let unrolled = find(record, &asked.kernel, (FormKind::Full, SpirvPath::Naga))?;
+                let unrolled = record.shader(&asked.kernel, FormKind::Full, SpirvPath::Naga)?;
                 Some(asked.figures.get(gpu)?.cost()? as f64 / unrolled.figures.get(gpu)?.cost()? as f64)
             })
             .collect();
@@ -113,30 +115,20 @@ pub fn in_short(record: &IsaRecord) -> Table {
         };
         (title, looped.len(), kept, range)
     });
-    Table::of(&rows)
+    Ok(Table::of(&rows)
         .column("SPIR-V by", |row| row.0)
         .column("kernels", |row| row.1)
         .column("loops kept, of a GPU", |row| &row.2)
         .column("cost of the others over unrolled: least", |row| row.3[0].clone())
         .column("median", |row| row.3[1].clone())
         .column("largest", |row| row.3[2].clone())
-        .finish()
+        .finish())
 }
-
-/// Tells whether a kernel is one of `study loops`.
-fn is_of_loop_study(record: &IsaRecord, asked: &Asked) -> bool {
-    let mut kernels: Vec<&str> = record.shaders.iter().map(|asked| asked.kernel.as_str()).collect();
-    kernels.dedup();
-    kernels.iter().take(LOOP_STUDY).any(|kernel| *kernel == asked.kernel)
-}
-
-/// Kernels of `study loops`, which come first in a record of all.
-const LOOP_STUDY: usize = 15;
 
 /// Each GPU: the same work by our text and by Slang's, with 4 and with 16 samples.
 pub fn rivals(record: &IsaRecord) -> Table {
     let figures = |gpu: &Gpu, kernel: &str, form| {
-        let asked = find(record, kernel, (form, SpirvPath::Naga))?;
+        let asked = record.shader(kernel, form, SpirvPath::Naga)?;
         asked.figures.get(gpu).map(cost)
     };
     let ours = |gpu: &Gpu, kernel: &str| figures(gpu, kernel, FormKind::Full).map(|cost| format!("**{cost}**"));
@@ -154,7 +146,7 @@ pub fn rivals(record: &IsaRecord) -> Table {
 /// shaders by scalars alive is that by registers.
 pub fn registers(record: &IsaRecord) -> Table {
     let words = |gpu: &Gpu, kernel: &str, form| {
-        let figures = find(record, kernel, (form, SpirvPath::Naga))?.figures.get(gpu)?;
+        let figures = record.shader(kernel, form, SpirvPath::Naga)?.figures.get(gpu)?;
         let spilled = match figures.spilled {
             0 => String::new(),
             spilled => format!(", {spilled} spilled"),

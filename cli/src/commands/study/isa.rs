@@ -1,14 +1,21 @@
 //! `study isa`: statistics of GPU compilers for shaders, without the GPUs.
 
 use super::{ProgressBars, command_line, current_time, loops};
-use crate::args::{CommonArgs, IsaArgs};
+use crate::args::{CommonArgs, Gpus, IsaArgs};
 use crate::failure::Failure;
 use std::path::PathBuf;
+use straightline_isa::{Compiler, Gpu, IsaError};
 use straightline_study::isa::{self, Asking, IsaStudyError, Question};
 use straightline_study::record::{IsaRecord, Record};
 
 /// Name of the hidden command that runs in a compiler's process.
 pub const SERVE: &str = "serve-isa";
+
+/// Starts a compiler: this program, called as [`SERVE`].
+pub fn start_compiler(gpu: Gpu) -> Result<Compiler, IsaError> {
+    let program = std::env::current_exe().map_err(|error| IsaError::Process(gpu, error))?;
+    Compiler::start(&program, &[SERVE], gpu)
+}
 
 /// Compiles, prints, and writes the record.
 pub fn measure_isa(common: &CommonArgs, args: &IsaArgs, progress: &mut ProgressBars) -> Result<(), Failure> {
@@ -22,7 +29,7 @@ pub fn measure_isa(common: &CommonArgs, args: &IsaArgs, progress: &mut ProgressB
         errln!("there is no glslangValidator, so GLSL is not asked about; on Debian: apt-get install glslang-tools");
     }
     let question = Question {
-        gpus: args.gpu.iter().flat_map(|gpus| gpus.0.clone()).collect(),
+        gpus: Gpus::distinct(&args.gpu),
         program: (
             std::env::current_exe().map_err(Failure::from_error)?,
             vec![SERVE.to_owned()],

@@ -2,7 +2,7 @@
 
 mod print;
 
-use super::study::isa::SERVE;
+use super::study::isa::start_compiler;
 use super::study::{ProgressBars, circumstances_of};
 use crate::args::TuneArgs;
 use crate::failure::Failure;
@@ -11,7 +11,6 @@ use crate::scene;
 use glam::UVec2;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::{EmitOptions, Kernel, OptionValue, OptionValues, Settings, files};
-use straightline_isa::Compiler;
 use straightline_scene::capture::Capture;
 use straightline_scene::gbuffer;
 use straightline_study::progress::Progress;
@@ -85,8 +84,7 @@ fn open_gauge(cost: Cost) -> Result<Gauge, Failure> {
     let Cost::Isa(gpu) = cost else {
         return Ok(Gauge::Device);
     };
-    let program = std::env::current_exe().map_err(Failure::from_error)?;
-    let compiler = Compiler::start(&program, &[SERVE], gpu).map_err(Failure::from_error)?;
+    let compiler = start_compiler(gpu).map_err(Failure::from_error)?;
     Ok(Gauge::Compiler(Box::new(compiler)))
 }
 

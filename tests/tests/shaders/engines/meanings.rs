@@ -46,7 +46,7 @@ fn engines() -> impl Iterator<Item = Engine> {
     engine_names().map(|name| Engine::builtin(name).expect("an engine"))
 }
 
-/// Whether users of an engine bind every input by its own name.
+/// Returns whether users of an engine bind every input by its own name.
 fn binds_by_name(engine: &Engine) -> bool {
     engine.description().meanings.is_empty()
 }

@@ -4,16 +4,15 @@ mod environment;
 mod given;
 mod print;
 
-use super::isa::SERVE;
+use super::isa::start_compiler;
 use super::{ProgressBars, circumstances_of};
-use crate::args::{CommonArgs, MergeArgs, RecordsArgs, SweepArgs};
+use crate::args::{CommonArgs, Gpus, MergeArgs, RecordsArgs, SweepArgs};
 use crate::failure::{Failure, format_count};
 use crate::gpu::Gpu;
 use given::Given;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 use straightline_codegen::{Compiled, Kernel};
-use straightline_isa::Compiler;
 use straightline_manifest::hash_of_text;
 use straightline_study::progress::Progress;
 use straightline_study::record::{Record, Shard, SweepRecord};
@@ -50,7 +49,8 @@ pub fn measure_sweep(common: &CommonArgs, args: &SweepArgs, progress: &mut Progr
     let size = given.picture_size(&compiled[0])?;
     let gpu = Gpu::require(&common.adapter)?;
     let give = |compiled: &Compiled| given.variant_inputs(compiled).map_err(to_sweep_error);
-    let mut compilers = start_compilers(args)?;
+    let compilers = Gpus::distinct(&args.isa).into_iter().map(start_compiler);
+    let mut compilers: Vec<_> = compilers.collect::<Result<_, _>>().map_err(Failure::from_error)?;
     let variants = sweep
         .measure(&gpu.bench(), &give, &mut compilers, progress)
         .map_err(to_failure)?;
@@ -84,14 +84,6 @@ pub fn measure_sweep(common: &CommonArgs, args: &SweepArgs, progress: &mut Progr
     print::print_record(&record);
     print_paths(common);
     check_complete(&record, args.shard)
-}
-
-/// Starts the compilers that are asked about each variant.
-fn start_compilers(args: &SweepArgs) -> Result<Vec<Compiler>, Failure> {
-    let program = std::env::current_exe().map_err(Failure::from_error)?;
-    let gpus = args.isa.iter().flat_map(|gpus| gpus.0.iter());
-    gpus.map(|gpu| Compiler::start(&program, &[SERVE], *gpu).map_err(Failure::from_error))
-        .collect()
 }
 
 /// Fails for an interrupted record, so that an engine which runs shards takes this one again.
