@@ -128,6 +128,17 @@ impl Kernel {
         &self.source.files
     }
 
+    /// Place of a parameter of the kernel.
+    pub fn parameter_span(&self, name: &str) -> Option<Span> {
+        let library = deep(|| self.typed_library()).ok()?;
+        let function = library.functions.get(&self.source.name)?;
+        function
+            .params
+            .iter()
+            .find(|param| *param.name == *name)
+            .map(|param| param.span)
+    }
+
     /// Place of the kernel's name, or the first line of its file: the place of errors that concern all of it. `None` of an empty file.
     pub fn name_span(&self) -> Option<Span> {
         let library = deep(|| self.typed_library()).ok();

@@ -421,3 +421,25 @@ fn messages_of_a_command_come_first_and_its_failure_counts() {
         &["lens.rs:10", "failed: exit status: 1"],
     );
 }
+
+/// A parameter that is named like a coordinate is a uniform: `check` says so, and how a pixel's own is computed.
+#[test]
+fn a_uniform_named_like_a_coordinate_is_noted() {
+    let path = write(
+        &scratch("coordinate"),
+        "blur.rs",
+        "use straightline_kernels::prelude::*;\n\
+         pub fn blur(image: &Texture<Vec4>, linear: &Sampler, uv: Vec2, offset: Vec2) -> Vec4 {\n\
+             image.sample(linear, uv + offset)\n}\n",
+    );
+    let said = finishes(&["check", &path]);
+    let notes: Vec<&str> = said.lines().filter(|line| line.contains(":2: note:")).collect();
+    assert_eq!(notes.len(), 1, "{said}");
+    assert!(
+        notes[0].contains("`uv` is a uniform, the same for all pixels"),
+        "{said}"
+    );
+    let (found, succeeded) = messages(&["check", "--message-format", "json", &path]);
+    let levels: Vec<DiagnosticLevel> = found.iter().map(|message| message.level).collect();
+    assert_eq!((levels.as_slice(), succeeded), (&[DiagnosticLevel::Note][..], true));
+}

@@ -1,12 +1,47 @@
-//! Notes on kernels without errors: sums whose order of operations matters.
+//! Notes on kernels without errors: sums whose order of operations matters, and uniforms that look like coordinates.
 
 use super::message;
 use crate::args::MessageFormat;
 use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
 use straightline_codegen::{Compiled, Kernel};
 
-/// Returns a note for each line whose operations drivers must not reorder.
+/// Names that the coordinate of a pixel has in other languages.
+const COORDINATES: [&str; 8] = [
+    "uv",
+    "coord",
+    "coords",
+    "frag_coord",
+    "fragcoord",
+    "tex_coord",
+    "texcoord",
+    "tex_coords",
+];
+
+/// Returns a note for each uniform that is named like a coordinate, and for each line whose operations drivers must not
+/// reorder.
 pub fn find_notes(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
+    let mut notes = note_coordinates(compiled, kernel);
+    notes.extend(note_orders(compiled, kernel));
+    notes
+}
+
+fn note_coordinates(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
+    let uniforms = compiled.graph.uniforms.iter();
+    let vectors = uniforms.filter(|uniform| uniform.ty.is_float() && uniform.ty.component_count() == 2);
+    let named = vectors.filter(|uniform| COORDINATES.contains(&uniform.name.as_str()));
+    let note = |name: &str| {
+        let what = format!(
+            "`{name}` is a uniform, the same for all pixels; a pixel's own is `(pixel.as_vec2() + 0.5) / size.as_vec2()`"
+        );
+        Some(Errors {
+            diagnostics: vec![Diagnostic::remark_at(kernel.parameter_span(name)?, what)],
+            files: kernel.files().to_vec().into(),
+        })
+    };
+    named.filter_map(|uniform| note(&uniform.name)).collect()
+}
+
+fn note_orders(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
     let places = compiled.exact_places().into_iter();
     let note = |(path, line, name): (&str, u32, &str)| {
         let (index, file) = (0..).zip(kernel.files()).find(|(_, file)| file.path == path)?;
