@@ -62,7 +62,8 @@ fn features() -> Vec<(String, String)> {
     let mut found = Vec::new();
     // In the order of the page.
     for name in [
-        "control", "patterns", "closures", "values", "indices", "slices", "items", "names", "ports", "refused",
+        "control", "patterns", "closures", "values", "numbers", "indices", "slices", "items", "names", "ports",
+        "shading", "noises", "refused",
     ] {
         let path = folder.join(format!("{name}.rs"));
         println!("cargo::rerun-if-changed={}", path.display());

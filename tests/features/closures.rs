@@ -112,3 +112,46 @@ pub fn flattened(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let n = (0..3).flat_map(|y| (0..y).map(move |x| x * y)).filter(|v| v % 2 == 0).count();
     s + vec4(t, u, n as f32, 0.0)
 }
+
+//// Iterators over ranges with runtime bounds: `filter`, `map`, `enumerate`, and what consumes them
+pub fn lazy_iterators(color: &Frame<Vec4>, weights: &Buffer<f32>, taps: i32, pixel: IVec2) -> Vec4 {
+    let n = weights.len().min((taps + (pixel.x & 3)).max(0) as usize);
+    let mut odd = Vec2::ZERO;
+    for k in (0..n).filter(|k| k % 2 == 1) {
+        if odd.y > 3.0 {
+            break;
+        }
+        odd += vec2(weights.load(k), 1.0);
+    }
+    for (k, x) in (0..n).map(|k| weights.load(k)).enumerate() {
+        if x < 0.25 {
+            continue;
+        }
+        odd.x += x * k as f32;
+    }
+    let sum: f32 = (0..n).map(|k| weights.load(k) * 2.0).sum();
+    let colors: Vec4 = (-taps..=taps).map(|k| color.load(pixel + ivec2(k, 0))).sum();
+    let best = (0..n).map(|k| weights.load(k)).fold(f32::NEG_INFINITY, f32::max);
+    let count = (0..n).filter(|&k| weights.load(k) > 0.5).count();
+    let first = (0..n).find(|&k| weights.load(k) > 0.7).unwrap_or(99);
+    let any = (0..taps).rev().any(|k| color.load(pixel - ivec2(0, k)).y > 0.9);
+    let bright = (0..n).filter_map(|k| if weights.load(k) > 0.3 { Some(weights.load(k) * 3.0) } else { None });
+    let total = bright.fold(0.0, |sum, x| sum + x);
+    vec4(odd.x + sum, best.max(-1.0) + total, (count.min(99) + 10 * first.min(99)) as f32, colors.x + if any { 1.0 } else { 0.0 })
+}
+
+//// `for` over an array that is filtered
+pub fn filtered_loop(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let taps = [ivec2(0, 1), ivec2(1, 0), ivec2(2, 2)].map(|at| color.load(pixel + at));
+    let mut sum = Vec4::ZERO;
+    for tap in taps.iter().filter(|tap| tap.x > 0.4) {
+        if tap.y > 0.8 {
+            continue;
+        }
+        sum += *tap;
+    }
+    for k in (0..6).filter(|k| k % 3 == 0) {
+        sum.w += k as f32;
+    }
+    sum
+}

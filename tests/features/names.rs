@@ -113,3 +113,72 @@ pub fn options_in_place(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let sum = other.map_or_else(|e| e as f32, |x| x * 2.0) + other.unwrap_or_default();
     vec4(old, sum, first.unwrap_or(0.5), u32::from(other.is_ok_and(|x| x > 1.0)) as f32)
 }
+
+//// Associated types of type parameters: `C::Space::WHITE`, and functions of them as values
+trait Space {
+    const WHITE: Vec3;
+    fn encode(x: f32) -> f32;
+}
+
+trait Curve {
+    type Space: Space;
+    fn apply(x: f32) -> f32 {
+        x * x
+    }
+}
+
+struct Linear;
+struct Squared;
+struct First;
+struct Second;
+
+impl Space for Linear {
+    const WHITE: Vec3 = Vec3::ONE;
+    fn encode(x: f32) -> f32 {
+        x
+    }
+}
+
+impl Space for Squared {
+    const WHITE: Vec3 = vec3(0.9, 1.0, 0.5);
+    fn encode(x: f32) -> f32 {
+        x.max(0.0).sqrt()
+    }
+}
+
+impl Curve for First {
+    type Space = Linear;
+}
+
+impl Curve for Second {
+    type Space = Squared;
+    fn apply(x: f32) -> f32 {
+        x * 0.5
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Level(f32);
+
+impl std::ops::Add for Level {
+    type Output = Level;
+    fn add(self, other: Level) -> Level {
+        Level(self.0 + other.0)
+    }
+}
+
+impl From<f32> for Level {
+    fn from(x: f32) -> Level {
+        Level(x * 2.0)
+    }
+}
+
+fn mapped<C: Curve>(color: Vec3) -> Vec3 {
+    (color * C::Space::WHITE).map(C::apply).map(C::Space::encode) + <C::Space as Space>::WHITE * C::Space::encode(0.25)
+}
+
+pub fn associated(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel).xyz();
+    let level = Level(here.x) + here.y.into();
+    (mapped::<First>(here) - mapped::<Second>(here)).extend(level.0)
+}

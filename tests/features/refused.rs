@@ -27,7 +27,7 @@ pub fn doubles(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     Vec4::splat((precise * 0.1) as f32)
 }
 
-//// `i64`, `u64`, `u8`, `i16`
+//// `i64` and `u64`
 pub fn other_integers(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let product = pixel.x as u64 * 3;
     color.load(pixel) * product as f32

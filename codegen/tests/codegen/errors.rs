@@ -120,7 +120,7 @@ fn the_page_shows_messages_as_they_are() {
     let (_, tail) = rest.split_once("<!-- end of errors -->").expect("its end");
     let chosen = [
         "budget",
-        "round_fract_signum",
+        "fused_roundings",
         "while_unrolled_by_attribute",
         "argument_of_another_type",
         "array_of_textures_at_run_time",

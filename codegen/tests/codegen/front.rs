@@ -165,7 +165,7 @@ fn what_would_be_misread_is_refused() {
             "lower case",
         ),
         ("", "let a: f64 = 1.0; Vec4::splat(1.0)", "the type `f64`"),
-        ("fn f(a: u8) -> f32 { 1.0 }", "Vec4::splat(f(1))", "the type `u8`"),
+        ("fn f(a: u64) -> f32 { 1.0 }", "Vec4::splat(f(1))", "the type `u64`"),
         (
             "use noise::mix;",
             "Vec4::splat(mix(0.0, 1.0, 0.5))",

@@ -4,7 +4,7 @@ use super::Evaluator;
 use super::enums::EnumValue;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Expr, ExprKind, Generic, Type as SourceType};
+use crate::front::tree::{Expr, ExprKind, Generic, IntType, Type as SourceType};
 use crate::ir::{Scalar, Type};
 use std::rc::Rc;
 
@@ -117,14 +117,12 @@ impl Evaluator<'_> {
 
     fn ascribe_name(&mut self, value: Value, name: &str, span: Span) -> Eval {
         let stated = match name {
-            "u32" => Type::U32,
-            "i32" => Type::I32,
-            "usize" => Type::USIZE,
             "f32" => Type::F32,
             "bool" => Type::BOOL,
-            other => match super::call::vector_type(other) {
-                Some((kind, lanes)) => Type::value(kind, lanes),
-                None => return Ok(value),
+            other => match (IntType::from_name(other), super::call::vector_type(other)) {
+                (Some(kind), _) => Type::scalar(kind.scalar()),
+                (None, Some((kind, lanes))) => Type::value(kind, lanes),
+                (None, None) => return Ok(value),
             },
         };
         match &value {

@@ -20,6 +20,12 @@ impl<'a> Evaluator<'a> {
         if values.contains(&Value::Poison) {
             return Err(Exit::Noted);
         }
+        if let ([method], [receiver, rest @ ..]) = (path, values.as_slice())
+            && method.contains("::")
+            && let Some(value) = self.lazy_method(receiver, method, rest, span)?
+        {
+            return Ok(value);
+        }
         let resolved = self.resolve_path(path, &values, span)?;
         let path = resolved.as_deref().unwrap_or(path);
         if let [name] = path

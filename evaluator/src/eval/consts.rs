@@ -3,6 +3,7 @@
 use super::Evaluator;
 use super::call::vector_type;
 use super::value::Value;
+use crate::front::tree::IntType;
 use crate::ir::{Op, Scalar, Type};
 use std::f32::consts;
 
@@ -47,6 +48,18 @@ impl Evaluator<'_> {
             ("usize", "BITS") => return Some(Value::Node(self.builder.constant(Type::U32, [64, 0, 0, 0]))),
             ("usize", "MIN") => return Some(Value::Int(0)),
             ("usize", "MAX") => return Some(Value::Node(self.builder.usize(u64::MAX))),
+            (ty, "BITS" | "MIN" | "MAX")
+                if let Some(kind) = IntType::from_name(ty).filter(|k| k.narrow_bits().is_some()) =>
+            {
+                let number = match name {
+                    "BITS" => i64::from(kind.narrow_bits().unwrap_or_default()),
+                    "MIN" => kind.range().0,
+                    _ => kind.range().1,
+                };
+                let ty = if name == "BITS" { Scalar::U32 } else { kind.scalar() };
+                let bits = [number as u32, 0, 0, 0];
+                return Some(Value::Node(self.builder.constant(Type::scalar(ty), bits)));
+            }
             ("u32" | "i32", "BITS") => return Some(Value::Node(self.builder.constant(Type::U32, [32, 0, 0, 0]))),
             ("i32", "MAX") => return Some(Value::Node(self.builder.i32(i32::MAX))),
             ("i32", "MIN") => return Some(Value::Node(self.builder.i32(i32::MIN))),

@@ -112,6 +112,55 @@ impl Evaluator<'_> {
         self.builder.add(Op::Binary(BinaryOp::Eq), [tag, wanted], Type::BOOL)
     }
 
+    /// Returns the discriminants of an enum's variants: each is stated, or the one before it plus 1.
+    fn discriminants(&mut self, definition: &Enum, span: Span) -> Eval<Vec<i64>> {
+        let mut found: Vec<i64> = Vec::new();
+        for variant in &definition.variants {
+            let discriminant = match &variant.discriminant {
+                Some(stated) => {
+                    let value = self.eval_value(stated)?;
+                    self.as_constant(&value).ok_or_else(|| {
+                        Diagnostic::error_at(Code::RuntimeValue, stated.span, "a discriminant is a constant integer")
+                    })?
+                }
+                None => found.last().map_or(0, |last| last + 1),
+            };
+            if let Some(k) = found.iter().position(|known| *known == discriminant) {
+                let (first, second) = (&definition.variants[k].name, &variant.name);
+                let message = format!("`{first}` and `{second}` both have the discriminant {discriminant}");
+                return Err(Diagnostic::error_at(Code::DefinedTwice, span, message)
+                    .label("cast here")
+                    .help(format!("give `{second}` another one"))
+                    .into());
+            }
+            found.push(discriminant);
+        }
+        Ok(found)
+    }
+
+    /// Returns the discriminant of a value as an `i32`.
+    pub fn discriminant_of(&mut self, choice: &EnumValue, span: Span) -> Eval {
+        let library = self.library;
+        let Some(definition) = library.enums.get(choice.ty.as_str()) else {
+            return Err(Exit::Noted);
+        };
+        let discriminants = self.discriminants(definition, span)?;
+        let number = |k: usize| discriminants.get(k).copied().unwrap_or_default() as i32;
+        if let Some(k) = self.known_variant(choice) {
+            return Ok(Value::Node(self.builder.i32(number(k))));
+        }
+        let tag = self.tag_node(choice);
+        if discriminants.len() > 2 && (0..discriminants.len()).all(|k| number(k) == k as i32) {
+            return Ok(Value::Node(tag));
+        }
+        let mut result = self.builder.i32(number(discriminants.len() - 1));
+        for k in (0..discriminants.len() - 1).rev() {
+            let (is, own) = (self.is_variant(choice, k), self.builder.i32(number(k)));
+            result = self.builder.add(Op::Select, [is, own, result], Type::I32);
+        }
+        Ok(Value::Node(result))
+    }
+
     /// Returns the variant named by a path, with its fields; `None` for any other path. Fails if the number of values
     /// is wrong.
     pub fn variant_of(&mut self, path: &[String], values: Vec<Value>, span: Span) -> Eval<Option<Value>> {
@@ -169,8 +218,20 @@ impl Evaluator<'_> {
     /// Returns the condition that two values of one type are equal, part by part, like `#[derive(PartialEq)]`. `None`
     /// unless they are structures, tuples, arrays or enums.
     pub fn values_equal(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Option<NodeId>> {
-        let pairs: Vec<(Value, Value)> = match (a, b) {
-            (Value::Enum(a), Value::Enum(b)) if a.ty == b.ty => return self.equal_choices(a, b, span).map(Some),
+        if let (Value::Enum(a), Value::Enum(b)) = (a, b)
+            && a.ty == b.ty
+        {
+            return self.equal_choices(a, b, span).map(Some);
+        }
+        match self.pair_parts(a, b, span)? {
+            Some(pairs) => self.all_equal(pairs, span).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Returns the parts of two structures, tuples or arrays in pairs.
+    pub fn pair_parts(&mut self, a: &Value, b: &Value, span: Span) -> Eval<Option<Vec<(Value, Value)>>> {
+        Ok(match (a, b) {
             (
                 Value::Struct { ty, fields },
                 Value::Struct {
@@ -179,25 +240,24 @@ impl Evaluator<'_> {
                 },
             ) if ty == other => {
                 let pairs = fields.iter().zip(others.iter());
-                pairs.map(|((_, a), (_, b))| (a.clone(), b.clone())).collect()
+                Some(pairs.map(|((_, a), (_, b))| (a.clone(), b.clone())).collect())
             }
             (Value::Tuple(a), Value::Tuple(b)) if a.len() == b.len() => {
-                a.iter().cloned().zip(b.iter().cloned()).collect()
+                Some(a.iter().cloned().zip(b.iter().cloned()).collect())
             }
             (Value::Array(_) | Value::Table(_), _) | (_, Value::Array(_) | Value::Table(_)) => {
                 let (a, b) = (self.listed_array(a, span)?, self.listed_array(b, span)?);
                 if a.len() != b.len() {
                     return Ok(None);
                 }
-                a.into_iter().zip(b).collect()
+                Some(a.into_iter().zip(b).collect())
             }
             (Value::Node(x), Value::Node(y)) if self.ty(*x).is_array() && self.ty(*y).is_array() => {
                 let (a, b) = (self.listed_array(a, span)?, self.listed_array(b, span)?);
-                a.into_iter().zip(b).collect()
+                Some(a.into_iter().zip(b).collect())
             }
-            _ => return Ok(None),
-        };
-        self.all_equal(pairs, span).map(Some)
+            _ => None,
+        })
     }
 
     fn all_equal(&mut self, pairs: Vec<(Value, Value)>, span: Span) -> Eval<NodeId> {

@@ -5,6 +5,8 @@ use super::enums::EnumValue;
 use super::value::{Eval, Exit, Jump, Step, Value};
 use super::{Evaluator, MAX_EXPRESSIONS, MAX_PARTS};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::glam::public_fields;
+use crate::front::is_prelude_type;
 use crate::front::name::Name;
 use crate::front::tree::{Expr, ExprKind, IntType};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
@@ -38,8 +40,10 @@ impl Evaluator<'_> {
             ExprKind::Int(n, None | Some(IntType::Usize)) => Ok(Value::Int(*n)),
             // The literal of `i32::MIN` without its sign exceeds `i32::MAX`. It wraps here, and the sign is applied
             // afterwards.
-            ExprKind::Int(n, Some(IntType::I32)) => Ok(Value::Node(self.builder.i32(*n as i32))),
-            ExprKind::Int(n, Some(IntType::U32)) => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
+            ExprKind::Int(n, Some(kind)) if kind.scalar() == Scalar::I32 => {
+                Ok(Value::Node(self.builder.i32(*n as i32)))
+            }
+            ExprKind::Int(n, Some(_)) => Ok(Value::Node(self.int_node(*n, Scalar::U32, span)?)),
             ExprKind::Float(x, _) => Ok(Value::Node(self.builder.f32(*x))),
             ExprKind::Bool(b) => Ok(Value::Node(self.builder.bool(*b))),
             ExprKind::Str(text) => Ok(Value::Str(text.clone())),
@@ -178,8 +182,10 @@ impl Evaluator<'_> {
         let library = self.library;
         let name = path.last().map(String::as_str).unwrap_or_default();
         let variant = library.find_variant(path);
-        let stated = variant.map(|(_, _, variant)| &variant.fields);
-        let Some(stated) = stated.or_else(|| library.structs.get(name).map(|s| &s.fields)) else {
+        let own = variant.map(|(_, _, variant)| &variant.fields);
+        let own = own.or_else(|| library.structs.get(name).map(|s| &s.fields));
+        let of_glam = public_fields(name, span).filter(|_| own.is_none());
+        let Some(stated) = own.or(of_glam.as_ref()) else {
             let known: Vec<&str> = self.library.structs.keys().map(String::as_str).collect();
             return Err(Diagnostic::error_at(
                 Code::UnknownType,
@@ -187,7 +193,10 @@ impl Evaluator<'_> {
                 format!("there is no structure `{name}` in the kernel's files"),
             )
             .label("not found")
-            .help(crate::suggest::suggest_name(name, &known, "there are"))
+            .help(match is_prelude_type(name) {
+                true => format!("call its function: `{name}::new(...)`"),
+                false => crate::suggest::suggest_name(name, &known, "there are"),
+            })
             .into());
         };
         let mut given = Vec::new();
@@ -227,9 +236,20 @@ impl Evaluator<'_> {
         }
         let made = match variant {
             Some((ty, k, _)) => EnumValue::with_variant(ty, &library.enums[ty], k, values),
+            None if of_glam.is_some() => self.structure_of_glam(name, values, span)?,
             None => self.structure_of(name, values, span),
         };
         self.check_size(made, span)
+    }
+
+    /// Makes a vector or a matrix of its fields.
+    fn structure_of_glam(&mut self, name: &str, fields: Vec<(Name, Value)>, span: Span) -> Eval {
+        let parts: Eval<Vec<NodeId>> = fields.iter().map(|(_, value)| self.value_node(value, span)).collect();
+        let parts = parts?;
+        Ok(match super::call::vector_type(name) {
+            Some((kind, lanes)) => Value::Node(self.builder.add(Op::Compose, parts, Type::value(kind, lanes))),
+            None => super::matrix::matrix_value(&parts),
+        })
     }
 
     /// Evaluates `&&` and `||`.

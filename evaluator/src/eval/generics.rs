@@ -197,7 +197,7 @@ impl Evaluator<'_> {
     }
 
     /// Returns a compile-time constant as a number.
-    fn as_constant(&self, value: &Value) -> Option<i64> {
+    pub fn as_constant(&self, value: &Value) -> Option<i64> {
         match value {
             Value::Const(known) => Some(*known),
             Value::Node(id) if self.ty(*id) == Type::BOOL => self.known_bool(*id).map(i64::from),

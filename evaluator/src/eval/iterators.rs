@@ -259,7 +259,7 @@ impl Evaluator<'_> {
         }
     }
 
-    fn call_item_closure(&mut self, f: &Value, args: Vec<Value>, span: Span) -> Eval {
+    pub(super) fn call_item_closure(&mut self, f: &Value, args: Vec<Value>, span: Span) -> Eval {
         self.count_step(span)?;
         let value = self.call_value(f, args, span)?;
         self.deref_value(value, span)

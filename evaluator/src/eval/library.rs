@@ -4,6 +4,7 @@ use super::Evaluator;
 use super::call::vector_type;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::tree::IntType;
 use crate::ir::{Op, Scalar, Type};
 
 impl Evaluator<'_> {
@@ -58,12 +59,10 @@ impl Evaluator<'_> {
             };
             return self.compose_vector(kind, lanes, &parts, span).map(Some);
         }
-        let to = match ty {
-            "f32" => Scalar::F32,
-            "i32" => Scalar::I32,
-            "usize" => Scalar::Usize,
-            "u32" => Scalar::U32,
-            _ => return Ok(None),
+        let to = match IntType::from_name(ty) {
+            Some(kind) => kind.scalar(),
+            None if ty == "f32" => Scalar::F32,
+            None => return Ok(None),
         };
         if let (Value::Int(_), "usize") = (value, ty) {
             return Ok(Some(value.clone()));
@@ -73,15 +72,9 @@ impl Evaluator<'_> {
         if from == Type::scalar(to) {
             return Ok(Some(Value::Node(id)));
         }
+        // Types were checked: only integers of fewer bits and booleans are left.
         if from != Type::BOOL {
-            return Err(Diagnostic::error_at(
-                Code::Cast,
-                span,
-                format!("`{ty}::from` takes no {}, whose values it may not hold", from.in_rust()),
-            )
-            .label("not without a loss")
-            .help(format!("convert it with `as {ty}`"))
-            .into());
+            return Ok(Some(Value::Node(self.convert_node(id, to))));
         }
         let whole = self.builder.add(Op::Convert, [id], Type::U32);
         Ok(Some(Value::Node(self.convert_node(whole, to))))

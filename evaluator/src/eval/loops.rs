@@ -5,6 +5,7 @@ use super::causes::range_ends;
 use super::demand::UnrollReason;
 use super::departures::Tail;
 use super::partial::LoopCount;
+use super::stages::{Stage, split_stages};
 use super::value::{Eval, Exit, Place, Range, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, ForLoop, Pattern};
@@ -22,6 +23,8 @@ pub struct LoopBody<'a> {
     pub counter: Option<(&'a str, Span)>,
     /// Label of the loop.
     pub label: Option<&'a str>,
+    /// Adaptors between the values and the pattern.
+    pub stages: &'a [Stage],
     /// Positions of variables that may be written through the iterated value.
     pub written: Vec<usize>,
     /// `true` if `break` leads to the end of the loop in the graph, and no further.
@@ -69,14 +72,21 @@ impl Evaluator<'_> {
             (Pattern::Name(name, _, at), Value::Range(_)) => Some((name.as_str(), *at)),
             _ => None,
         };
+        let (items, stages) = split_stages(items);
         let mut body = LoopBody {
             block: &f.body,
             pattern: Some(&f.pattern),
             counter,
             label: f.label.as_deref(),
+            stages: &stages,
             written: Vec::new(),
             breaks_here: true,
         };
+        for stage in &stages {
+            if let Stage::Map(f) | Stage::Filter(f) | Stage::FilterMap(f) = stage {
+                self.collect_ref_slots(f, &mut body.written);
+            }
+        }
         let mut range = None;
         let values = match items {
             Value::Range(items) => match self.range_values(&items, f.over.span)? {
@@ -260,7 +270,7 @@ impl Evaluator<'_> {
         self.count_step(span)?;
         let (mark, since) = (self.scope.enter(), self.early_exits.len());
         let outcome = match body.pattern {
-            Some(pattern) => self.eval_bound_body(pattern, item, body, span),
+            Some(_) => self.eval_staged_body(body.stages, [item.clone(), item], body, span),
             None => self.block_in(body.block, Tail::Iteration(body.label)),
         };
         self.merge_exits(
@@ -274,7 +284,7 @@ impl Evaluator<'_> {
     }
 
     /// Evaluates the body with the counter bound to a value.
-    fn eval_bound_body(&mut self, pattern: &Pattern, item: Value, body: &LoopBody<'_>, span: Span) -> Eval {
+    pub fn eval_bound_body(&mut self, pattern: &Pattern, item: Value, body: &LoopBody<'_>, span: Span) -> Eval {
         let mark = self.scope.enter();
         let counter = match (pattern, self.known_int(&item)) {
             (Pattern::Name(name, ..), Some(value)) => Some(Counter {

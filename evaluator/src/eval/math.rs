@@ -13,7 +13,7 @@ impl Evaluator<'_> {
             return Ok(value);
         }
         let x = self.value_node(receiver, span)?;
-        let vectors = ["round", "fract", "signum", "mul_add"].contains(&name);
+        let vectors = name == "mul_add";
         if self.ty(x).is_float()
             && (vectors || self.ty(x).is_scalar())
             && let Some((_, why, write)) = UNLIKE.iter().find(|(known, ..)| *known == name)

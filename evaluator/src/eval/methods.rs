@@ -33,6 +33,9 @@ impl<'a> Evaluator<'a> {
         {
             return self.method_of_object(choice, name, args, span);
         }
+        if let Some(value) = self.lazy_method(&value, name, &args, span)? {
+            return Ok(value);
+        }
         let own = match self.own_method(&value, name) {
             None if !name.contains("::") => self.method_of_trait(&value, name, &args, span)?,
             own => own,

@@ -3,7 +3,7 @@
 use super::Evaluator;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::Type as SourceType;
+use crate::front::tree::{IntType, Type as SourceType};
 use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type, UnaryOp};
 
 impl Evaluator<'_> {
@@ -41,7 +41,7 @@ impl Evaluator<'_> {
                     .into()),
                 };
             }
-            (Value::Enum(choice), _) if !matches!(op, BinaryOp::Eq | BinaryOp::Ne) => {
+            (Value::Enum(choice), _) if !op.is_comparison() => {
                 let ty = &choice.ty;
                 return Err(Diagnostic::error_at(
                     Code::OperatorTypes,
@@ -49,7 +49,7 @@ impl Evaluator<'_> {
                     format!("this operator does not take a `{ty}`"),
                 )
                 .label("not for this type")
-                .help("values of enums can be compared with `==` and `!=`")
+                .help("values of enums can be compared")
                 .into());
             }
             _ => {}
@@ -59,6 +59,11 @@ impl Evaluator<'_> {
         {
             let found = if op == BinaryOp::Eq { same } else { self.not(same) };
             return Ok(Value::Node(found));
+        }
+        if op.is_comparison()
+            && let Some(holds) = self.values_ordered(op, left, right, span)?
+        {
+            return Ok(Value::Node(holds));
         }
         let (a, b) = match op {
             // The count of a shift may have another integer type.
@@ -71,6 +76,7 @@ impl Evaluator<'_> {
             BinaryOp::And | BinaryOp::Or | BinaryOp::Xor => kind != Scalar::F32,
             BinaryOp::Shl | BinaryOp::Shr => matches!(kind, Scalar::I32 | Scalar::U32 | Scalar::Usize),
             BinaryOp::Eq | BinaryOp::Ne => true,
+            _ if ty == Type::BOOL && op.is_comparison() => return Ok(Value::Node(self.ordered_bools(op, a, b))),
             _ => kind != Scalar::Bool,
         };
         if !fits || ty.is_array() {
@@ -254,18 +260,22 @@ impl Evaluator<'_> {
             }
             return Err(Diagnostic::error_at(Code::Cast, span, "a cast to something that is not a number").into());
         };
-        let kind = match name.as_str() {
-            "f32" => Scalar::F32,
-            "i32" => Scalar::I32,
-            "usize" => Scalar::Usize,
-            "u32" => Scalar::U32,
-            other => {
-                return Err(Diagnostic::error_at(Code::Cast, span, format!("a cast to `{other}`"))
+        let target = IntType::from_name(name);
+        let kind = match target {
+            Some(target) => target.scalar(),
+            None if name == "f32" => Scalar::F32,
+            None => {
+                return Err(Diagnostic::error_at(Code::Cast, span, format!("a cast to `{name}`"))
                     .label("not supported")
                     .help("cast to f32, i32, u32 or usize")
                     .into());
             }
         };
+        if let Some(target) = target
+            && let Some(bits) = target.narrow_bits()
+        {
+            return self.cast_to_narrow(value, target, bits, span);
+        }
         if let Value::Int(n) = value {
             return match kind {
                 Scalar::Usize => Ok(value.clone()),
@@ -274,9 +284,11 @@ impl Evaluator<'_> {
                 _ => Ok(Value::Node(self.builder.constant(Type::U32, [*n as u32, 0, 0, 0]))),
             };
         }
-        if matches!(value, Value::Poison) {
-            return Err(Exit::Noted);
-        }
+        let value = match value {
+            Value::Poison => return Err(Exit::Noted),
+            Value::Enum(choice) => &self.discriminant_of(choice, span)?,
+            other => other,
+        };
         let id = self.value_node(value, span)?;
         if !self.ty(id).is_scalar() {
             return Err(
@@ -290,6 +302,29 @@ impl Evaluator<'_> {
             Some(known) if kind == Scalar::Usize => Value::Int(known),
             _ => converted,
         })
+    }
+
+    /// Evaluates a cast to an integer of fewer than 32 bits: floats saturate, and integers lose their upper bits.
+    fn cast_to_narrow(&mut self, value: &Value, target: IntType, bits: u32, span: Span) -> Eval {
+        let wide = Type::scalar(target.scalar());
+        let whole = SourceType::Name(wide.in_rust(), Vec::new());
+        let converted = self.eval_cast(value, &whole, span)?;
+        let id = self.value_node(&converted, span)?;
+        let is_float = matches!(value, Value::Node(id) if self.ty(*id).is_float());
+        let constant = |e: &mut Self, n: i64| e.builder.constant(wide, [n as u32, 0, 0, 0]);
+        if is_float {
+            let (least, most) = target.range();
+            let (least, most) = (constant(self, least), constant(self, most));
+            return Ok(Value::Node(self.builder.add(Op::Clamp, [id, least, most], wide)));
+        }
+        Ok(Value::Node(if target.scalar() == Scalar::U32 {
+            let mask = constant(self, target.range().1);
+            self.builder.add(Op::Binary(BinaryOp::And), [id, mask], wide)
+        } else {
+            let above = constant(self, i64::from(32 - bits));
+            let raised = self.builder.add(Op::Binary(BinaryOp::Shl), [id, above], wide);
+            self.builder.add(Op::Binary(BinaryOp::Shr), [raised, above], wide)
+        }))
     }
 
     /// Converts an `i32` to the `usize` that it represents.

@@ -11,10 +11,7 @@ impl Evaluator<'_> {
     /// Evaluates a path to a variable, a constant or a variant.
     pub fn eval_path(&mut self, path: &[String], span: Span) -> Eval {
         let of_parameter = match path {
-            [of, name] => match self.scope.get(of) {
-                Some(Value::Type(ty)) => Some(vec![ty.clone(), name.clone()]),
-                _ => None,
-            },
+            [of, name] => self.type_behind(of).map(|ty| vec![ty, name.clone()]),
             _ => None,
         };
         let path = of_parameter.as_deref().unwrap_or(path);
@@ -79,6 +76,24 @@ impl Evaluator<'_> {
                 .help(crate::suggest::suggest_name(last, &names, "variables here are"))
                 .into())
             }
+        }
+    }
+
+    /// Returns the name of the type that a type parameter stands for, or an associated type of one: `T`, `T::Space`.
+    pub fn type_behind(&self, of: &str) -> Option<String> {
+        let (parameter, associated) = match of.split_once("::") {
+            Some((parameter, name)) => (parameter, Some(name)),
+            None => (of, None),
+        };
+        let Some(Value::Type(ty)) = self.scope.get(parameter) else {
+            return None;
+        };
+        let Some(name) = associated else {
+            return Some(ty.clone());
+        };
+        match self.library.associated.get(&(ty.clone(), name.to_owned())) {
+            Some(crate::front::tree::Type::Name(ty, _)) => Some(ty.clone()),
+            _ => None,
         }
     }
 

@@ -219,8 +219,8 @@ impl<'a> Evaluator<'a> {
     /// Resolves a path of two segments: a type parameter by its type, a trait by the type of the first value.
     pub fn resolve_path(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Vec<String>>> {
         let [of, name] = path else { return Ok(None) };
-        if let Some(Value::Type(ty)) = self.scope.get(of) {
-            return Ok(Some(vec![ty.clone(), name.clone()]));
+        if let Some(ty) = self.type_behind(of) {
+            return Ok(Some(vec![ty, name.clone()]));
         }
         let library = self.library;
         if library.has_type(of)

@@ -71,6 +71,7 @@ impl Evaluator<'_> {
             pattern: None,
             counter: None,
             label,
+            stages: &[],
             written: Vec::new(),
             breaks_here: true,
         };

@@ -124,6 +124,9 @@ impl Lower {
                 Some(path) => path.to_vec(),
                 None => vec![self.type_name(name.clone())],
             },
+            [parameter, of, name] if self.parameters.contains(parameter) => {
+                vec![format!("{parameter}::{of}"), name.clone()]
+            }
             [.., of, name] => vec![self.type_name(of.clone()), name.clone()],
             [] => names,
         }
@@ -134,8 +137,13 @@ impl Lower {
         let Some(own) = &e.qself else {
             return Some(self.path_segments(&e.path));
         };
-        let Type::Name(ty, _) = self.lower_type(&own.ty) else {
-            return None;
+        let ty = match (&*own.ty, self.lower_type(&own.ty)) {
+            // An associated type of a type parameter.
+            (syn::Type::Path(path), Type::Name(inferred, _)) if inferred == "_" => {
+                self.path_segments(&path.path).join("::")
+            }
+            (_, Type::Name(ty, _)) => ty,
+            _ => return None,
         };
         Some(vec![ty, e.path.segments.last()?.ident.to_string()])
     }

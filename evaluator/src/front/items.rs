@@ -386,6 +386,7 @@ impl Items {
             name: variant.ident.to_string(),
             docs: doc_text(&variant.attrs),
             fields: lower_fields(&mut lower, &variant.fields),
+            discriminant: variant.discriminant.as_ref().map(|(_, value)| lower.lower_expr(value)),
         });
         let variants = variants.collect();
         let definition = Enum {

@@ -11,12 +11,13 @@ impl Lower {
             syn::Lit::Int(lit) => {
                 let ty = match lit.suffix() {
                     "" => None,
-                    "i32" => Some(IntType::I32),
-                    "u32" => Some(IntType::U32),
-                    "usize" => Some(IntType::Usize),
-                    other => {
-                        self.note_unsupported(span, &format!("the integer type `{other}`"), "use i32, u32 or usize");
-                        None
+                    suffix => {
+                        let known = IntType::from_name(suffix);
+                        if known.is_none() {
+                            let what = format!("the integer type `{suffix}`");
+                            self.note_unsupported(span, &what, "use i32, u32 or usize");
+                        }
+                        known
                     }
                 };
                 // In a pattern the sign belongs to the literal.
@@ -37,6 +38,7 @@ impl Lower {
                 self.note_unsupported(span, &format!("the type `{}`", lit.suffix()), "use f32");
                 ExprKind::Float(0.0, true)
             }
+            syn::Lit::Byte(lit) => ExprKind::Int(lit.value().into(), Some(IntType::U8)),
             syn::Lit::Bool(lit) => ExprKind::Bool(lit.value),
             syn::Lit::Str(lit) => ExprKind::Str(lit.value()),
             _ => {

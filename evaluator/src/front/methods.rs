@@ -20,23 +20,11 @@ const VECTORS: &[&str] = &[
 ];
 
 /// Methods of floats that Rust and shaders compute differently: why, and what to write.
-pub const UNLIKE: [(&str, &str, &str); 9] = [
-    (
-        "round",
-        "`round` rounds halves away from zero, and no shader does",
-        "round(x)",
-    ),
-    ("fract", "`fract` truncates in Rust and floors in shaders", "fract(x)"),
-    ("signum", "`signum` of 0 is 1 in Rust and 0 in shaders", "sign(x)"),
+pub const UNLIKE: [(&str, &str, &str); 3] = [
     (
         "mul_add",
         "`mul_add` rounds once in Rust, and once or twice in shaders",
         "x * a + b",
-    ),
-    (
-        "hypot",
-        "`hypot` does not overflow in Rust, and shaders have no such function",
-        "vec2(x, y).length()",
     ),
     (
         "exp_m1",
@@ -48,12 +36,6 @@ pub const UNLIKE: [(&str, &str, &str); 9] = [
         "`ln_1p` is exact near 0 in Rust, and shaders have no such function",
         "(1.0 + x).ln()",
     ),
-    (
-        "log10",
-        "`log10` is exact for powers of ten in Rust, and shaders have no such function",
-        "x.log2() * std::f32::consts::LOG10_2",
-    ),
-    ("log", "`log` has no counterpart in shaders", "x.log2() / base.log2()"),
 ];
 
 /// Comparisons of vectors, component by component.

@@ -15,6 +15,7 @@ mod expr;
 mod foreign;
 #[cfg(test)]
 mod fuzz;
+pub mod glam;
 mod inner;
 pub mod instead;
 mod items;

@@ -184,7 +184,10 @@ impl Items {
         let mut stands = HashMap::new();
         for inner in &item.items {
             if let syn::ImplItem::Type(t) = inner {
-                stands.insert(format!("Self::{}", t.ident), lower.lower_type(&t.ty));
+                let ty = lower.lower_type(&t.ty);
+                let key = (of.clone(), t.ident.to_string());
+                self.library.associated.insert(key, ty.clone());
+                stands.insert(format!("Self::{}", t.ident), ty);
             }
         }
         let declared = self.traits.get(&trait_name).cloned();

@@ -150,6 +150,76 @@ pub enum IntType {
     U32,
     /// `usize`.
     Usize,
+    /// `i8`, computed as an `i32`.
+    I8,
+    /// `i16`, computed as an `i32`.
+    I16,
+    /// `u8`, computed as a `u32`.
+    U8,
+    /// `u16`, computed as a `u32`.
+    U16,
+}
+
+impl IntType {
+    const ALL: [IntType; 7] = [
+        IntType::I32,
+        IntType::U32,
+        IntType::Usize,
+        IntType::I8,
+        IntType::I16,
+        IntType::U8,
+        IntType::U16,
+    ];
+
+    /// Name in Rust.
+    pub fn name(self) -> &'static str {
+        match self {
+            IntType::I32 => "i32",
+            IntType::U32 => "u32",
+            IntType::Usize => "usize",
+            IntType::I8 => "i8",
+            IntType::I16 => "i16",
+            IntType::U8 => "u8",
+            IntType::U16 => "u16",
+        }
+    }
+
+    /// Type of a name in Rust.
+    pub fn from_name(name: &str) -> Option<IntType> {
+        IntType::ALL.into_iter().find(|known| known.name() == name)
+    }
+
+    /// Smallest and largest value; of `usize` those that fit into 63 bits.
+    pub fn range(self) -> (i64, i64) {
+        match self {
+            IntType::I32 => (i32::MIN.into(), i32::MAX.into()),
+            IntType::U32 => (0, u32::MAX.into()),
+            IntType::Usize => (0, i64::MAX),
+            IntType::I8 => (i8::MIN.into(), i8::MAX.into()),
+            IntType::I16 => (i16::MIN.into(), i16::MAX.into()),
+            IntType::U8 => (0, u8::MAX.into()),
+            IntType::U16 => (0, u16::MAX.into()),
+        }
+    }
+
+    /// Type in which a shader holds the values.
+    pub fn scalar(self) -> Scalar {
+        match self {
+            IntType::I32 | IntType::I8 | IntType::I16 => Scalar::I32,
+            IntType::U32 | IntType::U8 | IntType::U16 => Scalar::U32,
+            IntType::Usize => Scalar::Usize,
+        }
+    }
+
+    /// Number of bits, if a shader holds the values in more of them. Such numbers are stored, compared and converted;
+    /// they have no arithmetic, which would need its own overflow.
+    pub fn narrow_bits(self) -> Option<u32> {
+        match self {
+            IntType::I8 | IntType::U8 => Some(8),
+            IntType::I16 | IntType::U16 => Some(16),
+            IntType::I32 | IntType::U32 | IntType::Usize => None,
+        }
+    }
 }
 
 /// Statements in braces; the last may be the block's value.
@@ -430,6 +500,8 @@ pub struct EnumVariant {
     pub docs: String,
     /// Fields in order.
     pub fields: Fields,
+    /// Stated discriminant: the 4 of `Green = 4`.
+    pub discriminant: Option<Expr>,
 }
 
 impl Enum {
@@ -501,6 +573,8 @@ pub struct Library {
     pub implemented: FxHashMap<String, Vec<Implemented>>,
     /// Types and traits that they implement.
     pub implements: FxHashSet<(String, String)>,
+    /// Associated types, by the type that has them and their name.
+    pub associated: FxHashMap<(String, String), Type>,
     /// Purposes of the functions of the kernel's files, in order of their places.
     pub purposes: Arc<[Purpose]>,
     /// Functions and constants in which an error was found: inference says nothing of their uses.

@@ -253,13 +253,10 @@ impl<'l> Checker<'l> {
         if let [.., ty, name] = path {
             let receiver = match *ty {
                 "f32" => Some(Ty::Float),
-                "i32" => Some(Ty::I32),
-                "u32" => Some(Ty::U32),
-                "usize" => Some(Ty::USIZE),
                 "Mat2" => Some(Ty::Matrix(2)),
                 "Mat3" => Some(Ty::Matrix(3)),
                 "Mat4" => Some(Ty::Matrix(4)),
-                _ => None,
+                other => IntType::from_name(other).map(Ty::Int),
             };
             match (receiver, *name) {
                 (Some(number), "from") if !matches!(number, Ty::Matrix(_)) => return self.from(number, args),
@@ -283,6 +280,7 @@ impl<'l> Checker<'l> {
                 if self.table.variable_kind(&found).is_some() {
                     self.table.unify(&ty, &found);
                 }
+                self.check_lossless(&ty, &found, arg.span);
             }
             return ty;
         };
@@ -307,14 +305,35 @@ impl<'l> Checker<'l> {
         ty
     }
 
+    /// Notes an error unless `from` takes every value of an integer type.
+    fn check_lossless(&mut self, ty: &Ty, found: &Ty, span: Span) {
+        let found = self.table.resolve_shallow(found);
+        let takes = match (ty, &found) {
+            (Ty::Float, Ty::Int(from)) => from.narrow_bits().is_some(),
+            // Rust has 16-bit machines in mind.
+            (Ty::Int(IntType::Usize), Ty::Int(from)) => {
+                *from == IntType::Usize || from.narrow_bits().is_some() && from.range().0 == 0
+            }
+            (Ty::Int(to), Ty::Int(from)) => to.range().0 <= from.range().0 && from.range().1 <= to.range().1,
+            (Ty::Int(_), Ty::Float) => false,
+            _ => true,
+        };
+        if !takes {
+            let message = format!("`{ty}::from` takes no {found}, whose values it may not hold");
+            self.errors.push(
+                Diagnostic::error_at(Code::Cast, span, message)
+                    .label("not without a loss")
+                    .help(format!("convert it with `as {ty}`")),
+            );
+        }
+    }
+
     /// A method called by its path: the receiver is the first argument.
     fn by_path(&mut self, receiver: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
         let ty = match receiver {
             Ty::Vector(kind, lanes) => Some(Type::value(*kind, *lanes)),
             Ty::Float => Some(Type::F32),
-            Ty::Int(IntType::U32) => Some(Type::U32),
-            Ty::Int(IntType::Usize) => Some(Type::USIZE),
-            Ty::Int(_) => Some(Type::I32),
+            Ty::Int(kind) => Some(Type::scalar(kind.scalar())),
             _ => None,
         };
         let is_swizzle = name.chars().all(|c| matches!(c, 'x' | 'y' | 'z' | 'w'));
@@ -368,9 +387,9 @@ impl<'l> Checker<'l> {
             }
             ([.., "lane_position"], []) => pair(Scalar::I32),
             ([.., "quad_vector" | "quad_select"], []) => pair(Scalar::F32),
-            ([.., "fract" | "round" | "sign" | "saturate" | "inverse_sqrt"], [x]) => self.infer_expr(x, None),
+            ([.., "fract" | "round" | "sign" | "saturate" | "inverse_sqrt"], [x]) => self.infer_lanes(x),
             ([.., "mix"], [from, to, amount]) => {
-                let ty = self.infer_expr(from, None);
+                let ty = self.infer_lanes(from);
                 self.check_expr(to, &ty);
                 let found = self.infer_expr(amount, None);
                 let (of, by) = (self.peel_refs(&ty).0, self.peel_refs(&found).0);
@@ -388,7 +407,7 @@ impl<'l> Checker<'l> {
             ([.., "smoothstep"], [low, high, x]) => {
                 self.check_expr(low, &Ty::Float);
                 self.check_expr(high, &Ty::Float);
-                self.infer_expr(x, None)
+                self.infer_lanes(x)
             }
             ([.., "tally"], [name, value]) => {
                 self.infer_expr(name, None);
@@ -427,10 +446,21 @@ impl<'l> Checker<'l> {
         }
     }
 
+    /// The type of an argument of the prelude's functions of numbers and vectors. Of the floats, only `f32` is taken, so
+    /// that rustc infers it for a literal.
+    fn infer_lanes(&mut self, x: &'l Expr) -> Ty {
+        let ty = self.infer_expr(x, None);
+        if self.table.variable_kind(&ty) == Some(Kind::Float) {
+            self.table.unify(&ty, &Ty::Float);
+        }
+        ty
+    }
+
     /// Notes an error about a type that a function is called of, and that is none.
     pub fn no_type(&mut self, ty: &str, span: Span) {
         let library = self.library;
         let known = !ty.starts_with(char::is_uppercase)
+            || ty.contains("::")
             || crate::front::is_prelude_type(ty)
             || library.structs.contains_key(ty)
             || library.enums.contains_key(ty)

@@ -86,12 +86,9 @@ impl<'l> Checker<'l> {
             }
             _ if is_integer => {
                 // Between two ends of the arms' ranges all values are alike.
-                let mut ends: Vec<i64> = match ty {
-                    Ty::Int(IntType::U32) => vec![0, i64::from(u32::MAX) + 1],
-                    Ty::Int(IntType::Usize) => vec![0, i64::MAX],
-                    _ => vec![i64::from(i32::MIN), i64::from(i32::MAX) + 1],
-                };
-                let (least, most) = (ends[0], ends[1]);
+                let kind = if let Ty::Int(kind) = ty { kind } else { IntType::I32 };
+                let (least, most) = (kind.range().0, kind.range().1.saturating_add(1));
+                let mut ends: Vec<i64> = vec![least, most];
                 let ranges = rows.iter().filter_map(|row| row[0].and_then(integer_range));
                 ends.extend(ranges.flat_map(|(low, high)| [low, high.saturating_add(1)]));
                 ends.retain(|n| (least..=most).contains(n));

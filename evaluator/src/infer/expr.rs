@@ -383,6 +383,7 @@ impl<'l> Checker<'l> {
             (UnaryOp::Not, Ty::Float | Ty::Array(_) | Ty::Tuple(_) | Ty::Struct(..) | Ty::Enum(..) | Ty::Matrix(_)) => {
                 false
             }
+            (UnaryOp::Not, Ty::Int(kind)) => kind.narrow_bits().is_none(),
             (UnaryOp::Not, Ty::Vector(kind, _)) => *kind != crate::ir::Scalar::F32,
             (UnaryOp::Not, other) => self.table.variable_kind(other) != Some(Kind::Float),
             _ => true,
@@ -430,6 +431,7 @@ impl<'l> Checker<'l> {
                         .help("cast through an integer: `as u32 as f32`"),
                 );
             }
+            Ty::Enum(name, _) if matches!(target, Ty::Int(_)) && self.is_fieldless(&name) => {}
             found @ (Ty::Vector(..)
             | Ty::Matrix(_)
             | Ty::Array(_)
@@ -440,6 +442,8 @@ impl<'l> Checker<'l> {
                 let help = match found {
                     Ty::Vector(..) => "vectors convert with `.as_vec2()`, `.as_ivec3()`, ...",
                     Ty::Ref(..) => "read what it refers to: `*`",
+                    Ty::Enum(..) if target == Ty::Float => "cast through an integer: `as i32 as f32`",
+                    Ty::Enum(..) => "give the number by a `match` on the variants",
                     _ => "convert its parts",
                 };
                 self.errors.push(
@@ -451,6 +455,12 @@ impl<'l> Checker<'l> {
             _ => {}
         }
         target
+    }
+
+    /// Returns whether no variant of an enum has fields, so that it can be cast.
+    fn is_fieldless(&self, name: &str) -> bool {
+        let definition = self.library.enums.get(name);
+        definition.is_some_and(|definition| definition.variants.iter().all(|variant| variant.fields.is_empty()))
     }
 
     /// Returns whether an expression is a literal, with signs before it or in parentheses, which takes its type from the cast around it.
@@ -510,6 +520,7 @@ impl<'l> Checker<'l> {
         self.solve_deferred();
         let item = match self.table.resolve_shallow(&over) {
             Ty::Range(t) | Ty::Iter(t) | Ty::Array(t) => *t,
+            Ty::Struct(name, args) if name == "__Filtered" && args.len() == 1 => args[0].clone(),
             Ty::Ref(mutable, inner) => match self.table.resolve_shallow(&inner) {
                 Ty::Array(t) => Ty::Ref(mutable, t),
                 Ty::Range(t) | Ty::Iter(t) => *t,

@@ -6,7 +6,7 @@ use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text};
 use crate::front::methods;
-use crate::front::tree::{Expr, ExprKind, IntType};
+use crate::front::tree::{Expr, ExprKind};
 use crate::ir::{Scalar, Type};
 
 impl<'l> Checker<'l> {
@@ -140,7 +140,7 @@ impl<'l> Checker<'l> {
             Ty::Float | Ty::Int(_) | Ty::Vector(..) => {
                 let found = match receiver {
                     Ty::Vector(kind, lanes) => self.of_vector(*kind, *lanes, name, args),
-                    Ty::Int(_) => self.of_integer(receiver, name, args),
+                    Ty::Int(_) => self.of_integer(receiver, name, args, span),
                     _ => self.of_float(name, args),
                 };
                 if found == Ty::Unknown {
@@ -325,9 +325,7 @@ impl<'l> Checker<'l> {
     fn no_method(&mut self, receiver: &Ty, name: &str, arguments: usize, span: Span) {
         let ty = match receiver {
             Ty::Vector(kind, lanes) => Type::value(*kind, *lanes),
-            Ty::Int(IntType::U32) => Type::U32,
-            Ty::Int(IntType::Usize) => Type::USIZE,
-            Ty::Int(_) => Type::I32,
+            Ty::Int(kind) => Type::scalar(kind.scalar()),
             _ => Type::F32,
         };
         // Of a quad's messages the evaluator says what they need.
@@ -368,8 +366,24 @@ impl<'l> Checker<'l> {
         }
     }
 
-    fn of_integer(&mut self, own: &Ty, name: &str, args: &'l [Expr]) -> Ty {
+    fn of_integer(&mut self, own: &Ty, name: &str, args: &'l [Expr], span: Span) -> Ty {
         let own = own.clone();
+        if let Ty::Int(kind) = own
+            && kind.narrow_bits().is_some()
+            && !matches!(name, "min" | "max" | "clamp")
+        {
+            let wide = Ty::scalar(kind.scalar());
+            self.errors.push(
+                Diagnostic::error_at(
+                    Code::UnknownMethod,
+                    span,
+                    format!("there is no method `{name}` on {own}"),
+                )
+                .label("not supported")
+                .help(format!("convert it with `as {wide}` first")),
+            );
+            return self.unknown_method(args);
+        }
         match name {
             "abs" | "signum" | "reverse_bits" | "wrapping_neg" => self.check_arguments(args, &[], own),
             "count_ones" | "leading_zeros" | "trailing_zeros" => self.check_arguments(args, &[], Ty::U32),

@@ -335,9 +335,9 @@ impl<'l> Checker<'l> {
                 continue;
             };
             let largest = match kind {
-                IntType::I32 if minus.contains_key(&span) => 1 << 31,
-                IntType::I32 => i64::from(i32::MAX),
-                IntType::U32 | IntType::Usize => i64::from(u32::MAX),
+                IntType::Usize => i64::from(u32::MAX),
+                kind if minus.contains_key(&span) => -kind.range().0,
+                kind => kind.range().1,
             };
             if value > largest {
                 let at = minus.get(&span).copied().unwrap_or(span);
@@ -356,7 +356,9 @@ impl<'l> Checker<'l> {
             known.literals.insert(span, kind);
         }
         for (sign, ty, _) in std::mem::take(&mut self.negated) {
-            if let ty @ Ty::Int(IntType::U32 | IntType::Usize) = self.table.resolve_shallow(&ty) {
+            if let ty @ Ty::Int(kind) = self.table.resolve_shallow(&ty)
+                && kind.range().0 == 0
+            {
                 self.errors.push(
                     Diagnostic::error_at(
                         Code::OperatorTypes,

@@ -14,7 +14,8 @@ impl<'l> Checker<'l> {
         if unknown(self, left) || unknown(self, right) {
             self.solve_deferred();
         }
-        if unknown(self, left) || unknown(self, right) {
+        let is_decided = !unknown(self, left) && self.has_one_operand(op, left);
+        if !is_decided && (unknown(self, left) || unknown(self, right)) {
             let result = match op.is_comparison() {
                 true => Ty::Bool,
                 false => self.table.fresh(Kind::Any),
@@ -35,6 +36,19 @@ impl<'l> Checker<'l> {
                 if op.is_comparison() { Ty::Bool } else { Ty::Unknown }
             }
         }
+    }
+
+    /// Returns whether a type of the kernel's implements an operator for one operand alone, so that the operand's type is
+    /// inferred from it.
+    fn has_one_operand(&self, op: BinaryOp, left: &Ty) -> bool {
+        let left = self.peel_refs(left).0;
+        if !matches!(left, Ty::Struct(..) | Ty::Enum(..)) {
+            return false;
+        }
+        let keys = super::traits::trait_of(op)
+            .zip(self.type_name(&left))
+            .map(|((of, name), ty)| self.library.operator_keys(&ty, of, name).len());
+        keys == Some(1)
     }
 
     /// Looks again at operators whose operands were not known.
@@ -120,6 +134,10 @@ impl<'l> Checker<'l> {
             }
             _ => {}
         }
+        let narrow = |ty: &Ty| matches!(ty, Ty::Int(kind) if kind.narrow_bits().is_some());
+        if matches!(op, Add | Sub | Mul | Div | Rem | Shl) && (narrow(l) || narrow(r) && op != Shl) {
+            return None;
+        }
         match op {
             Add | Sub | Mul | Div | Rem => match (l, r) {
                 (Ty::Vector(a, n), Ty::Vector(b, m)) => (a == b && n == m && *a != Scalar::Bool).then(|| l.clone()),
@@ -166,33 +184,26 @@ impl<'l> Checker<'l> {
             return false;
         }
         self.observed.push(left.clone());
-        if matches!(op, BinaryOp::Eq | BinaryOp::Ne) && self.not_comparable(left).is_some() {
-            return false;
-        }
-        match self.peel_refs(left).0 {
-            Ty::Vector(..) | Ty::Matrix(_) | Ty::Enum(..) | Ty::Struct(..) | Ty::Quad(_) => {
-                matches!(op, BinaryOp::Eq | BinaryOp::Ne)
-            }
-            _ => true,
-        }
+        self.lacks_trait(left, comparison_trait(op)).is_none()
     }
 
-    /// The first structure or enum in a type that has no `PartialEq`.
-    fn not_comparable(&mut self, ty: &Ty) -> Option<String> {
+    /// The first type in a type that does not implement `PartialEq` or `PartialOrd`.
+    fn lacks_trait(&mut self, ty: &Ty, of: &str) -> Option<String> {
         let library = self.library;
         let bare = self.peel_refs(ty).0;
         let (name, derives) = match &bare {
             Ty::Struct(name, _) => (name, library.structs.get(name).map(|s| &s.derives)),
             Ty::Enum(name, _) => (name, library.enums.get(name).map(|e| &e.derives)),
-            Ty::Tuple(parts) => return parts.iter().find_map(|part| self.not_comparable(part)),
-            Ty::Array(element) => return self.not_comparable(element),
+            Ty::Tuple(parts) => return parts.iter().find_map(|part| self.lacks_trait(part, of)),
+            Ty::Array(element) => return self.lacks_trait(element, of),
+            Ty::Vector(..) | Ty::Matrix(_) | Ty::Quad(_) if of == "PartialOrd" => return Some(bare.to_string()),
             _ => return None,
         };
-        let known = derives.is_none_or(|derives| derives.iter().any(|derived| derived == "PartialEq"))
-            || library.implements.contains(&(name.clone(), "PartialEq".to_owned()));
+        let known = derives.is_none_or(|derives| derives.iter().any(|derived| derived == of))
+            || library.implements.contains(&(name.clone(), of.to_owned()));
         match (known, &bare) {
             (false, _) => Some(name.clone()),
-            (true, Ty::Struct(_, args) | Ty::Enum(_, args)) => args.iter().find_map(|arg| self.not_comparable(arg)),
+            (true, Ty::Struct(_, args) | Ty::Enum(_, args)) => args.iter().find_map(|arg| self.lacks_trait(arg, of)),
             _ => None,
         }
     }
@@ -232,12 +243,15 @@ impl<'l> Checker<'l> {
         };
         let mut error = Diagnostic::error_at(Code::OperatorTypes, expr.span, message).label(label);
         let help = match (&left, &right) {
-            _ if op.is_comparison() && left == right && self.is_own(&left) => Some(match self.not_comparable(&left) {
-                Some(name) if matches!(op, BinaryOp::Eq | BinaryOp::Ne) => {
-                    format!("write `#[derive(PartialEq)]` before `{name}`, or compare what it holds")
-                }
-                _ => "compare what it holds".to_owned(),
-            }),
+            _ if op.is_comparison() && left == right && self.is_own(&left) => {
+                let of = comparison_trait(op);
+                Some(match self.lacks_trait(&left, of) {
+                    Some(name) if !crate::front::is_prelude_type(&name) => {
+                        format!("write `#[derive({of})]` before `{name}`, or compare what it holds")
+                    }
+                    _ => "compare what it holds".to_owned(),
+                })
+            }
             _ if !op.is_comparison() && (self.is_own(&left) || self.is_own(&right)) => {
                 let of = super::traits::trait_of(op).map(|(of, _)| of).unwrap_or_default();
                 let named = |ty: &Ty| self.type_name(ty).filter(|name| name != "_");
@@ -277,6 +291,13 @@ impl<'l> Checker<'l> {
             (other, Ty::Float) if self.table.variable_kind(other) == Some(Kind::Integer) => {
                 Some("write it as a float: `2.0`".to_owned())
             }
+            (Ty::Int(kind), _) | (_, Ty::Int(kind)) if !op.is_comparison() && kind.narrow_bits().is_some() => {
+                let wide = Ty::scalar(kind.scalar());
+                Some(format!(
+                    "compute in 32 bits: `as {wide}`, and `as {}` of the result",
+                    kind.name()
+                ))
+            }
             (Ty::Int(_) | Ty::Float, Ty::Int(_) | Ty::Float) => {
                 Some(format!("convert one of them, for example with `as {left}`"))
             }
@@ -286,6 +307,14 @@ impl<'l> Checker<'l> {
             error = error.help(help);
         }
         self.errors.push(error);
+    }
+}
+
+/// Trait of a comparison.
+fn comparison_trait(op: BinaryOp) -> &'static str {
+    match op {
+        BinaryOp::Eq | BinaryOp::Ne => "PartialEq",
+        _ => "PartialOrd",
     }
 }
 
@@ -309,9 +338,7 @@ pub fn literals_overflow(op: BinaryOp, a: i64, b: i64, kind: IntType) -> bool {
         _ => return false,
     };
     match (result, kind) {
-        (Some(n), IntType::I32) => i32::try_from(n).is_err(),
-        (Some(n), IntType::U32) => u32::try_from(n).is_err(),
-        (Some(n), IntType::Usize) => n < 0,
+        (Some(n), kind) => !(kind.range().0..=kind.range().1).contains(&n),
         (None, _) => true,
     }
 }

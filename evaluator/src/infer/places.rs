@@ -3,7 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Expr, ExprKind, Type};
+use crate::front::tree::{Expr, ExprKind, IntType, Type};
 use crate::ir::{BinaryOp, Scalar};
 use std::collections::HashMap;
 
@@ -109,10 +109,14 @@ impl<'l> Checker<'l> {
             && self.params.iter().any(|param| param == of)
         {
             let found = self.constant_of(of, name, span);
-            if found.is_none() {
+            if found.is_none() && self.declared_of(of, name).is_none() {
                 self.no_member(of, name, span);
             }
             return (found.unwrap_or(Ty::Unknown), Access::Writable);
+        }
+        // An associated type of a type parameter, which only the evaluator knows.
+        if path.first().is_some_and(|of| of.contains("::")) {
+            return (Ty::Unknown, Access::Writable);
         }
         let joined = path.join("::");
         let last = path.last().map(String::as_str).unwrap_or_default();
@@ -409,10 +413,10 @@ fn known_constant(path: &[String]) -> Ty {
         "Mat3" => Ty::Matrix(3),
         "Mat4" => Ty::Matrix(4),
         "f32" => Ty::Float,
-        "i32" | "u32" | "usize" if name == "BITS" => Ty::U32,
-        "i32" => Ty::I32,
-        "u32" => Ty::U32,
-        "usize" => Ty::USIZE,
+        _ if let Some(kind) = IntType::from_name(ty) => match name {
+            "BITS" => Ty::U32,
+            _ => Ty::Int(kind),
+        },
         "consts"
             if name
                 .chars()

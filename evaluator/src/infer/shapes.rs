@@ -3,6 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::glam::public_fields;
 use crate::front::name::Name;
 use crate::front::tree::{Expr, Fields, Generic, Type};
 use std::collections::HashMap;
@@ -104,10 +105,7 @@ impl<'l> Checker<'l> {
     /// `Name { field: value }`, of a structure or a variant.
     pub fn infer_struct(&mut self, path: &'l [String], fields: &'l [(Name, Expr)], rest: Option<&'l Expr>) -> Ty {
         let Some((ty, known, types)) = self.made_by(path) else {
-            fields.iter().for_each(|(_, value)| {
-                self.infer_expr(value, None);
-            });
-            return Ty::Unknown;
+            return self.infer_struct_of_glam(path, fields, rest);
         };
         for (field, value) in fields {
             match known.iter().position(|(name, ..)| name == field) {
@@ -117,6 +115,32 @@ impl<'l> Checker<'l> {
                 }
             }
         }
+        if let Some(rest) = rest {
+            self.check_expr(rest, &ty);
+        }
+        ty
+    }
+
+    /// `Vec3 { x: value, .. }`, of a vector or a matrix of glam.
+    fn infer_struct_of_glam(&mut self, path: &'l [String], fields: &'l [(Name, Expr)], rest: Option<&'l Expr>) -> Ty {
+        let name = path.last().map(String::as_str).unwrap_or_default();
+        let known = public_fields(name, Span::default());
+        for (field, value) in fields {
+            let stated = known.iter().flatten().find(|(name, ..)| name == field);
+            match stated {
+                Some((_, Type::Name(part, _), at)) => {
+                    let part = self.convert_named_type(part, &[], &HashMap::new(), *at);
+                    self.check_expr(value, &part);
+                }
+                _ => {
+                    self.infer_expr(value, None);
+                }
+            }
+        }
+        let ty = match known {
+            Some(_) => self.convert_named_type(name, &[], &HashMap::new(), Span::default()),
+            None => Ty::Unknown,
+        };
         if let Some(rest) = rest {
             self.check_expr(rest, &ty);
         }

@@ -4,7 +4,7 @@ use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::textures::TextureType;
-use crate::front::tree::{Expr, ExprKind, Function, Generic, Type, generic_arguments};
+use crate::front::tree::{Expr, ExprKind, Function, Generic, IntType, Type, generic_arguments};
 use std::collections::HashMap;
 
 pub use crate::front::tree::vector_named as vector;
@@ -74,6 +74,9 @@ impl<'l> Checker<'l> {
         if let Some((kind, lanes)) = vector(name) {
             return Ty::Vector(kind, lanes);
         }
+        if let Some(kind) = IntType::from_name(name) {
+            return Ty::Int(kind);
+        }
         let mut texel = || match args {
             [texel] => self.substitute_type(texel, given, span),
             _ => Ty::Unknown,
@@ -81,9 +84,6 @@ impl<'l> Checker<'l> {
         match name {
             "f32" => Ty::Float,
             "bool" => Ty::Bool,
-            "i32" => Ty::I32,
-            "u32" => Ty::U32,
-            "usize" => Ty::USIZE,
             "str" => Ty::Str,
             "Mat2" => Ty::Matrix(2),
             "Mat3" => Ty::Matrix(3),
@@ -141,8 +141,8 @@ impl<'l> Checker<'l> {
     fn unknown_type(&mut self, name: &str, span: Span) {
         let help = match name {
             "f64" => "use `f32`, which is what shaders compute in",
-            "i8" | "i16" | "i64" | "i128" | "isize" => "use `i32`",
-            "u8" | "u16" | "u64" | "u128" => "use `u32`",
+            "i64" | "i128" | "isize" => "use `i32`",
+            "u64" | "u128" => "use `u32`",
             "Vec3A" => "use `Vec3`",
             _ => {
                 "use numbers, vectors, matrices, arrays, tuples, the prelude's resources, or structures and enums of the kernel's files"

@@ -254,9 +254,7 @@ impl fmt::Display for Ty {
         match self {
             Ty::Var(_) | Ty::Unknown => f.write_str("_"),
             Ty::Bool => f.write_str("bool"),
-            Ty::Int(IntType::I32) => f.write_str("i32"),
-            Ty::Int(IntType::U32) => f.write_str("u32"),
-            Ty::Int(IntType::Usize) => f.write_str("usize"),
+            Ty::Int(kind) => f.write_str(kind.name()),
             Ty::Float => f.write_str("f32"),
             Ty::Vector(kind, lanes) => {
                 let prefix = match kind {

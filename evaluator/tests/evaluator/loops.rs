@@ -135,9 +135,13 @@ const CASES: &[(&str, &[&str])] = &[
         &["k.i none"],
     ),
     ("for i in 0..3 { m += i; } s += down(m);", &["k.i full"]),
-    // The length of an array, and a bound of an iterator.
+    // A bound of an iterator is a runtime value, unless all values are needed at once.
     (
         "for i in 1..3 { m += i; } s += (0..m).map(|x| x as f32).sum::<f32>();",
+        &["k.i none", "__Lazy::sum.x none"],
+    ),
+    (
+        "for i in 1..3 { m += i; } s += (0..m).zip(0..9).map(|(x, y)| (x * y) as f32).sum::<f32>();",
         &["k.i full"],
     ),
 ];

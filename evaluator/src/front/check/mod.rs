@@ -220,12 +220,8 @@ impl Check {
                 syn::Fields::Unnamed(fields) => self.check_fields(&mut fields.unnamed),
                 syn::Fields::Unit => {}
             }
-            if let Some((_, value)) = &variant.discriminant {
-                self.refuse(
-                    value.span(),
-                    "a number of a variant",
-                    "give the number by a `match` on the variants",
-                );
+            if let Some((_, value)) = &mut variant.discriminant {
+                self.check_expr(value);
             }
             if variant.ident.to_string().starts_with(|c: char| !c.is_uppercase()) {
                 self.refuse(

@@ -107,8 +107,8 @@ impl Check {
         };
         let instead = match name.as_str() {
             "f16" | "f64" | "f128" => "use f32",
-            "i8" | "i16" | "i64" | "i128" => "use i32",
-            "u8" | "u16" | "u64" | "u128" => "use u32",
+            "i64" | "i128" => "use i32",
+            "u64" | "u128" => "use u32",
             _ => return,
         };
         self.refuse(path.span(), &format!("the type `{name}`"), instead);

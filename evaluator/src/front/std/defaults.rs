@@ -60,3 +60,27 @@ impl<T: Default> Option<T> {
         }
     }
 }
+
+impl u8 {
+    fn default() -> u8 {
+        0
+    }
+}
+
+impl u16 {
+    fn default() -> u16 {
+        0
+    }
+}
+
+impl i8 {
+    fn default() -> i8 {
+        0
+    }
+}
+
+impl i16 {
+    fn default() -> i16 {
+        0
+    }
+}

@@ -7,6 +7,34 @@ impl f32 {
         f32::from_bits((self.to_bits() & 0x7fff_ffff) | (sign.to_bits() & 0x8000_0000))
     }
 
+    fn fract(self) -> f32 {
+        self - self.trunc()
+    }
+
+    fn round(self) -> f32 {
+        let whole = self.trunc();
+        if (self - whole).abs() >= 0.5 { whole + (if self < 0.0 { -1.0 } else { 1.0 }) } else { whole }
+    }
+
+    fn signum(self) -> f32 {
+        if self.is_nan() { self } else { (1.0_f32).copysign(self) }
+    }
+
+    fn log(self, base: f32) -> f32 {
+        self.ln() / base.ln()
+    }
+
+    fn log10(self) -> f32 {
+        self.log2() * std::f32::consts::LOG10_2
+    }
+
+    fn hypot(self, other: f32) -> f32 {
+        let (a, b) = (self.abs(), other.abs());
+        let (large, small) = if a < b { (b, a) } else { (a, b) };
+        let ratio = small / large;
+        if large == 0.0 || large.is_infinite() { large } else { large * (1.0 + ratio * ratio).sqrt() }
+    }
+
     fn is_sign_negative(self) -> bool {
         self.to_bits() >> 31 == 1
     }

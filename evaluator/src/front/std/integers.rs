@@ -135,6 +135,7 @@ impl usize {
     }
 }
 
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Ordering {
     Less,
     Equal,
@@ -270,5 +271,31 @@ impl i32 {
 
     fn wrapping_abs(self) -> i32 {
         if self < 0 { self.wrapping_neg() } else { self }
+    }
+}
+
+impl u32 {
+    fn to_le_bytes(self) -> [u8; 4] {
+        [self as u8, (self >> 8) as u8, (self >> 16) as u8, (self >> 24) as u8]
+    }
+
+    fn to_be_bytes(self) -> [u8; 4] {
+        [(self >> 24) as u8, (self >> 16) as u8, (self >> 8) as u8, self as u8]
+    }
+
+    fn to_ne_bytes(self) -> [u8; 4] {
+        self.to_le_bytes()
+    }
+
+    fn from_le_bytes(bytes: [u8; 4]) -> u32 {
+        bytes[0] as u32 | (bytes[1] as u32) << 8 | (bytes[2] as u32) << 16 | (bytes[3] as u32) << 24
+    }
+
+    fn from_be_bytes(bytes: [u8; 4]) -> u32 {
+        (bytes[0] as u32) << 24 | (bytes[1] as u32) << 16 | (bytes[2] as u32) << 8 | bytes[3] as u32
+    }
+
+    fn from_ne_bytes(bytes: [u8; 4]) -> u32 {
+        u32::from_le_bytes(bytes)
     }
 }

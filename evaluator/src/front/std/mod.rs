@@ -133,6 +133,7 @@ fn pieces() -> &'static [Piece] {
             include_str!("option.rs"),
             include_str!("defaults.rs"),
             include_str!("iterators.rs"),
+            include_str!("lazy.rs"),
             include_str!("workgroups.rs"),
             include_str!("quat.rs"),
         ]
@@ -201,6 +202,10 @@ fn by_lane(text: &mut String, lanes: usize) {
             text,
             "    fn {name}(self, other: {vector}) -> {vector} {{ {vector}::new({parts}) }}"
         );
+    }
+    for name in ["round", "signum"] {
+        let parts = each(&|l| format!("self.{l}.{name}()"));
+        let _ = writeln!(text, "    fn {name}(self) -> {vector} {{ {vector}::new({parts}) }}");
     }
     text.push_str("}\n");
     let bits = LANES[..lanes].iter().enumerate();

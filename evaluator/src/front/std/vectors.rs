@@ -1,4 +1,8 @@
 impl Vec3 {
+    fn fract(self) -> Vec3 {
+        self - self.trunc()
+    }
+
     fn normalize_or(self, fallback: Vec3) -> Vec3 {
         let scale = self.length_recip();
         if scale.is_finite() && scale > 0.0 { self * scale } else { fallback }

@@ -1,0 +1,169 @@
+//! Iterators whose number of values is a runtime value: a range with runtime bounds, and the adaptors applied to it. A
+//! loop over one calls the adaptors' closures in each iteration, as Rust does. Methods that consume an iterator are
+//! such loops, written in the kernel language (`front/std/lazy.rs`).
+
+use super::Evaluator;
+use super::departures::Tail;
+use super::loops::LoopBody;
+use super::stages::{LAZY, Stage, lazy_value, split_stages};
+use super::value::{Eval, Exit, Range, Value};
+use crate::diagnostic::Span;
+use crate::ir::{BinaryOp, NodeId, Op, Scalar};
+use std::rc::Rc;
+
+/// Methods that consume an iterator, as functions of `__Lazy` or of `Iterator`.
+#[rustfmt::skip]
+const CONSUMERS: &[&str] = &[
+    "all", "any", "count", "find", "find_map", "fold", "for_each", "last", "max", "max_by", "max_by_key", "min",
+    "min_by", "min_by_key", "nth", "position", "product", "reduce", "sum",
+];
+
+impl Evaluator<'_> {
+    /// Evaluates a method of an iterator whose number of values is a runtime value; `None` for any other value or method.
+    pub fn lazy_method(&mut self, value: &Value, name: &str, args: &[Value], span: Span) -> Eval<Option<Value>> {
+        let (source, mut stages) = match value {
+            Value::Range(_) => (value.clone(), Vec::new()),
+            Value::Struct { ty, .. } if ty.as_str() == LAZY => split_stages(value.clone()),
+            _ => return Ok(None),
+        };
+        let Value::Range(range) = &source else { return Ok(None) };
+        if stages.is_empty() && (self.known_int(&range.start).is_some() && self.known_int(&range.end).is_some()) {
+            return Ok(None);
+        }
+        let name = name.rsplit("::").next().unwrap_or(name);
+        let stage = match (name, args) {
+            ("iter" | "into_iter" | "by_ref" | "copied" | "cloned", []) => return Ok(Some(value.clone())),
+            ("map", [f]) => Stage::Map(f.clone()),
+            ("filter", [f]) => Stage::Filter(f.clone()),
+            ("filter_map", [f]) => Stage::FilterMap(f.clone()),
+            ("enumerate", [])
+                if range.step == 1 && !range.down && !range.reversed && !stages.iter().any(Stage::skips_values) =>
+            {
+                Stage::Enumerate((*range.start).clone())
+            }
+            (name, args) if CONSUMERS.contains(&name) => {
+                return self.consume_lazily(range, &stages, name, args, span).map(Some);
+            }
+            _ => return Ok(None),
+        };
+        stages.push(stage);
+        Ok(Some(lazy_value(range, &stages)))
+    }
+
+    fn consume_lazily(&mut self, range: &Range, stages: &[Stage], name: &str, args: &[Value], span: Span) -> Eval {
+        let mut all = vec![lazy_value(range, stages)];
+        if matches!(name, "sum" | "product") {
+            all.push(self.unit_of_items(range, stages, name, span)?);
+        }
+        all.extend(args.iter().cloned());
+        let own = format!("{LAZY}::{name}");
+        let key = match self.library.functions.contains_key(&own) {
+            true => own,
+            false => format!("Iterator::{name}"),
+        };
+        self.inline_function(&key, &[], all, span)
+    }
+
+    /// Returns the value that a sum or product begins with. The items' type is that of the first one.
+    fn unit_of_items(&mut self, range: &Range, stages: &[Stage], name: &str, span: Span) -> Eval {
+        let before = self.take_checkpoint();
+        let first = self.first_item((*range.start).clone(), stages, span)?;
+        let first = self.deref_value(first, span)?;
+        let ty = self.value_node(&first, span).map(|id| self.ty(id))?;
+        self.rewind_to(before);
+        let (kind, lanes) = (ty.scalar_kind().unwrap_or(Scalar::I32), ty.component_count());
+        let bits = match (kind, name) {
+            // As in Rust, numbers are added to -0; as in glam, vectors to 0.
+            (Scalar::F32, "sum") if lanes == 1 => (-0.0_f32).to_bits(),
+            (_, "sum") => 0,
+            (Scalar::F32, _) => 1.0_f32.to_bits(),
+            _ => 1,
+        };
+        Ok(Value::Node(self.builder.constant(ty, [bits; 4])))
+    }
+
+    /// Returns a value of an item's type: that of the first one, whether a filter takes it or not.
+    fn first_item(&mut self, item: Value, stages: &[Stage], span: Span) -> Eval {
+        let raw = item.clone();
+        let mut item = item;
+        for stage in stages {
+            item = match stage {
+                Stage::Map(f) => self.call_item_closure(f, vec![item], span)?,
+                Stage::Enumerate(start) => self.enumerated(&raw, start, item, span)?,
+                Stage::FilterMap(f) => {
+                    let found = self.call_item_closure(f, vec![item], span)?;
+                    self.held_value(&found)?.1
+                }
+                Stage::Filter(_) | Stage::Flatten => item,
+            };
+        }
+        Ok(item)
+    }
+
+    /// Evaluates a loop's body for a value behind adaptors: under the condition that none of them leaves it out.
+    pub fn eval_staged_body(
+        &mut self,
+        stages: &[Stage],
+        [raw, item]: [Value; 2],
+        body: &LoopBody<'_>,
+        span: Span,
+    ) -> Eval {
+        let Some((stage, rest)) = stages.split_first() else {
+            return match body.pattern {
+                Some(pattern) => self.eval_bound_body(pattern, item, body, span),
+                None => Err(Exit::Noted),
+            };
+        };
+        let (holds, item) = match stage {
+            Stage::Map(f) => (None, self.call_item_closure(f, vec![item], span)?),
+            Stage::Enumerate(start) => (None, self.enumerated(&raw, start, item, span)?),
+            Stage::Filter(f) => {
+                let holds = self.call_item_closure(f, vec![item.clone()], span)?;
+                (Some(self.value_node(&holds, span)?), item)
+            }
+            Stage::FilterMap(f) => {
+                let found = self.call_item_closure(f, vec![item], span)?;
+                let (holds, item) = self.held_value(&found)?;
+                (Some(holds), item)
+            }
+            Stage::Flatten => {
+                let (holds, item) = self.held_value(&item)?;
+                (Some(holds), item)
+            }
+        };
+        let behind = |e: &mut Self| e.eval_staged_body(rest, [raw, item], body, span);
+        let Some(condition) = holds else {
+            return behind(self);
+        };
+        match self.known_bool(condition) {
+            Some(true) => behind(self),
+            Some(false) => Ok(Value::unit()),
+            None => {
+                let keep = self.policy.keeps_branch(None);
+                let tail = Tail::Iteration(body.label);
+                self.eval_branch(tail, condition, keep, span, behind, |_| Ok(Value::unit()))
+            }
+        }
+    }
+
+    /// Returns the pair of a value and its position in a range.
+    fn enumerated(&mut self, raw: &Value, start: &Value, item: Value, span: Span) -> Eval {
+        let position = self.eval_binary(BinaryOp::Sub, raw, start, span)?;
+        let position = match position {
+            Value::Node(id) => Value::Node(self.builder.add(Op::Convert, [id], crate::ir::Type::USIZE)),
+            known => known,
+        };
+        Ok(Value::Tuple(vec![position, item]))
+    }
+
+    /// Returns the condition that an `Option` holds a value, and that value.
+    fn held_value(&mut self, found: &Value) -> Eval<(NodeId, Value)> {
+        let Value::Enum(choice) = found else {
+            return Err(Exit::Noted);
+        };
+        let choice = Rc::clone(choice);
+        let holds = self.is_variant(&choice, 1);
+        let held = choice.variant_fields(1).and_then(<[_]>::first);
+        Ok((holds, held.map_or(Value::Undef, |(_, value)| value.clone())))
+    }
+}
