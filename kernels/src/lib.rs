@@ -19,10 +19,13 @@ mod options;
 #[cfg(feature = "native")]
 pub mod prelude;
 mod presets;
+pub mod properties;
 #[cfg(feature = "native")]
 pub mod quad;
 #[cfg(feature = "native")]
 pub mod sraa;
+#[cfg(feature = "native")]
+pub mod testing;
 mod values;
 
 pub use catalogue::{CATALOGUE, Entry, PaperCounts, SourceFile, find};
