@@ -1,6 +1,6 @@
 //! Origin of non-finite numbers.
 
-use crate::ir::{Counter, Graph, NodeId, Op};
+use crate::ir::{Counter, Graph, NodeId, Op, Origin};
 
 /// The first operation of a pixel that made a NaN or an infinity of finite numbers, or read one.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +18,7 @@ impl NonFiniteOrigin {
     pub fn describe(&self, graph: &Graph) -> String {
         let lanes: Vec<String> = self.value.iter().map(f64::to_string).collect();
         let value = lanes.join(", ");
-        let origin = self.named_origin(graph);
+        let origin = named_origin(graph, self.node);
         let name = origin.map_or("a value", |o| &*o.name);
         let mut text = match &graph.node(self.node).op {
             Op::Const(_) => format!("`{name}` is the constant {value}"),
@@ -41,18 +41,18 @@ impl NonFiniteOrigin {
         }
         text
     }
+}
 
-    /// Returns the operation's own origin, or that of the first named value that uses it.
-    fn named_origin<'g>(&self, graph: &'g Graph) -> Option<&'g crate::ir::Origin> {
-        let mut at = self.node;
-        loop {
-            if let Some(origin) = graph.origin(at).filter(|o| !o.name.is_empty()) {
-                return Some(origin);
-            }
-            at = graph
-                .node_ids()
-                .skip(at.0 as usize + 1)
-                .find(|id| graph.node(*id).args.contains(&at))?;
+/// Returns an operation's own origin, or that of the first named value that uses it.
+pub(super) fn named_origin(graph: &Graph, node: NodeId) -> Option<&Origin> {
+    let mut at = node;
+    loop {
+        if let Some(origin) = graph.origin(at).filter(|o| !o.name.is_empty()) {
+            return Some(origin);
         }
+        at = graph
+            .node_ids()
+            .skip(at.0 as usize + 1)
+            .find(|id| graph.node(*id).args.contains(&at))?;
     }
 }

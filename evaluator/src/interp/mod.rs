@@ -3,6 +3,7 @@
 mod bindings;
 mod control;
 mod cube;
+mod divergence;
 mod finite;
 mod group;
 mod memory;
@@ -16,6 +17,7 @@ use sampling::{Detail, Sampled};
 use std::marker::PhantomData;
 
 pub use bindings::{Address, Bindings, Comparison, Image, InputError, SamplerState, Texels};
+pub use divergence::{Divergence, first_divergence};
 pub use finite::NonFiniteOrigin;
 pub use memory::Disorder;
 
@@ -45,6 +47,8 @@ pub struct Scratch {
     /// Iterations of the last invocation, of all its loops.
     iterations: u64,
     non_finite_origin: Option<NonFiniteOrigin>,
+    /// Values in the order of their computation, if they are traced.
+    trace: Option<divergence::Trace>,
     /// Memory that the kernel writes.
     memory: Memories,
     /// Position of the invocation in its workgroup.
@@ -163,6 +167,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             loops: Vec::new(),
             iterations: 0,
             non_finite_origin: None,
+            trace: None,
             memory: Memories::default(),
             local: [0, 0],
             threads: Vec::new(),
@@ -340,6 +345,9 @@ impl<'a, R: Real> Interpreter<'a, R> {
         }
         if self.watches && s.non_finite_origin.is_none() && node.ty.is_float() && !node.ty.is_array() {
             self.note_non_finite(id, s);
+        }
+        if s.trace.is_some() {
+            self.trace_value(id, s);
         }
     }
 
