@@ -62,6 +62,10 @@ pub struct Diagnostic {
 #[derive(Clone, Debug)]
 struct Cause(Arc<dyn std::error::Error + Send + Sync>);
 
+// A cause is only displayed: no panic leaves it half changed.
+impl std::panic::UnwindSafe for Cause {}
+impl std::panic::RefUnwindSafe for Cause {}
+
 /// Compares by identity, because system errors are not comparable.
 impl PartialEq for Cause {
     fn eq(&self, other: &Self) -> bool {

@@ -5,6 +5,7 @@ use super::value::{ConstantDemand, Eval, Exit, Jump, Value};
 use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text};
+use crate::front::testing::RECORD;
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType, generic_arguments};
 use crate::ir::{Naming, NodeId, Op, Scalar, Type};
 use std::borrow::Cow;
@@ -178,6 +179,9 @@ impl<'a> Evaluator<'a> {
                 self.compose_vector(kind, lanes, &values, span)
             }
             ([.., name], [Value::Str(tally), value]) if name == "tally" => self.eval_tally(tally, value, span),
+            ([name], [site, condition, left, right]) if name == RECORD => {
+                self.eval_record(site, condition, [left, right], span)
+            }
             ([.., ty, from], [value]) if ty == "f32" && from == "from_bits" => {
                 let bits = self.int_or_node(value, Scalar::U32, span)?;
                 Ok(Value::Node(self.builder.add(Op::Bitcast, [bits], Type::F32)))

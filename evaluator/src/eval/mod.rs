@@ -5,6 +5,7 @@
 //! Loops are unrolled or left in the shader, as the [`Unroll`](crate::policy::Unroll) policy says; calls are always inlined.
 
 mod ascribe;
+mod assertions;
 mod assign;
 mod binding;
 mod blocks;

@@ -36,6 +36,7 @@ mod recursive;
 mod scan;
 pub mod std;
 mod targets;
+pub mod testing;
 pub mod textures;
 mod traits;
 pub mod tree;
@@ -121,6 +122,14 @@ pub fn parse_whole(files: &Arc<Vec<File>>, entry: &str) -> Result<Parsed, Errors
 
 /// Reads the items of all files and of the library.
 fn read_items(files: &Arc<Vec<File>>) -> Result<items::Items, Errors> {
+    let mut syntax = read_syntax(files)?;
+    let mut items = collect_items(&mut syntax);
+    add_library(&mut items, files)?;
+    Ok(items)
+}
+
+/// Reads the syntax of all files, each with its index.
+fn read_syntax(files: &Arc<Vec<File>>) -> Result<Vec<(u32, syn::File)>, Errors> {
     let mut errors = Vec::new();
     let mut syntax = Vec::new();
     for (index, file) in files.iter().enumerate() {
@@ -134,21 +143,33 @@ fn read_items(files: &Arc<Vec<File>>) -> Result<items::Items, Errors> {
             Err(error) => errors.push(syntax_error(index as u32, &text, &error)),
         }
     }
-    if !errors.is_empty() {
-        return Err(Errors::new(errors, files));
+    match errors.is_empty() {
+        true => Ok(syntax),
+        false => Err(Errors::new(errors, files)),
     }
-    for (_, parsed) in &mut syntax {
+}
+
+/// Collects the items of files.
+fn collect_items(syntax: &mut [(u32, syn::File)]) -> items::Items {
+    for (_, parsed) in syntax.iter_mut() {
         inner::take_all(&mut parsed.items);
     }
-    let mut items = items::Items::new(&syntax);
-    for (file, parsed) in &mut syntax {
+    let mut items = items::Items::new(syntax);
+    for (file, parsed) in syntax {
         items.add_file(*file, parsed);
     }
+    items
+}
+
+/// Adds what the library has of the names that `files` mention.
+fn add_library(items: &mut items::Items, files: &[File]) -> Result<(), Errors> {
     match syn::parse_file(&std::text(files)) {
-        Ok(mut parsed) => items.add_file(std::FILE, &mut parsed),
-        Err(error) => return Err(Errors::from_diagnostic(syntax_error(std::FILE, "", &error))),
+        Ok(mut parsed) => {
+            items.add_file(std::FILE, &mut parsed);
+            Ok(())
+        }
+        Err(error) => Err(Errors::from_diagnostic(syntax_error(std::FILE, "", &error))),
     }
-    Ok(items)
 }
 
 /// The text with blanks for a byte order mark and a first line `#!/...`, so that what follows stays in its place.

@@ -5,6 +5,7 @@ use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text, find_type};
 use crate::front::methods;
+use crate::front::testing::RECORD;
 use crate::front::tree::{Expr, ExprKind, Function, IntType};
 use crate::ir::{Scalar, Type};
 use std::collections::HashMap;
@@ -412,6 +413,13 @@ impl<'l> Checker<'l> {
             ([.., "tally"], [name, value]) => {
                 self.infer_expr(name, None);
                 self.infer_expr(value, None)
+            }
+            ([.., RECORD], [site, condition, left, right]) => {
+                self.infer_expr(site, None);
+                self.check_expr(condition, &Ty::Bool);
+                self.infer_expr(left, None);
+                self.infer_expr(right, None);
+                Ty::UNIT
             }
             ([.., "uniform"], [value]) => self.infer_expr(value, None),
             (["array", "from_fn"] | ["from_fn"], [f]) => {
