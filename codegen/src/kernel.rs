@@ -10,6 +10,7 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File, Span};
 use straightline_evaluator::eval::{self, OptionInfo};
+use straightline_evaluator::front::testing::Test;
 use straightline_evaluator::front::{self, Library, Parsed};
 use straightline_evaluator::infer;
 use straightline_evaluator::limits::Meter;
@@ -25,6 +26,8 @@ const MAX_SOURCE: u64 = 1 << 24;
 #[derive(Clone, Debug)]
 pub struct Kernel {
     source: Source,
+    /// The test that the kernel is made of.
+    test: Option<Arc<Test>>,
     /// Items of the files, read once for all variants.
     library: OnceLock<Arc<Library>>,
     described: OnceLock<Arc<[OptionInfo]>>,
@@ -34,6 +37,7 @@ impl Kernel {
     fn new(source: Source) -> Kernel {
         Kernel {
             source,
+            test: None,
             library: OnceLock::new(),
             described: OnceLock::new(),
         }
@@ -72,6 +76,19 @@ impl Kernel {
             builtin: None,
             files: Arc::new(vec![file]),
         })
+    }
+
+    /// Makes a kernel of a test of the first of `files`.
+    pub(crate) fn from_test(files: &Arc<Vec<File>>, test: &Test) -> Kernel {
+        let source = Source {
+            name: front::unraw(&test.entry).to_owned(),
+            builtin: None,
+            files: Arc::clone(files),
+        };
+        Kernel {
+            test: Some(Arc::new(test.clone())),
+            ..Kernel::new(source)
+        }
     }
 
     /// Reads a kernel from a file of the caller's. Without `function` it is the public function that has the file's name, or else the only
@@ -248,12 +265,16 @@ impl Kernel {
         if let Some(library) = self.library.get() {
             return Ok(Arc::clone(library));
         }
+        let parsed = match &self.test {
+            Some(test) => front::testing::parse_test(&self.source.files, test)?,
+            None => front::parse(&self.source.files, &self.source.name)?,
+        };
         let Parsed {
             mut library,
             reached,
             mut errors,
             ..
-        } = front::parse(&self.source.files, &self.source.name)?;
+        } = parsed;
         add(
             &mut errors,
             infer::infer_types(&mut library, &reached).err().unwrap_or_default(),
@@ -344,7 +365,7 @@ fn add(errors: &mut Vec<Diagnostic>, found: Vec<Diagnostic>) {
     errors.extend(found.into_iter().filter(|error| !places.contains(&error.span)));
 }
 
-fn read_source(path: &Path) -> Result<String, Errors> {
+pub(crate) fn read_source(path: &Path) -> Result<String, Errors> {
     files::read_text(path, MAX_SOURCE).map_err(|error| {
         let what = format!("cannot read the kernel file `{}`: {error}", path.display());
         Errors::from_diagnostic(
@@ -357,7 +378,7 @@ fn read_source(path: &Path) -> Result<String, Errors> {
 
 /// Runs on a stack that is deep enough for every nesting that the front end lets through.
 #[cfg(not(target_arch = "wasm32"))]
-fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, Errors> {
+pub(crate) fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, Errors> {
     const STACK: usize = 256 << 20;
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
@@ -378,6 +399,6 @@ fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, E
 /// Runs on the host's stack: WebAssembly has no threads of its own, and the front end lets less nesting through there
 /// (`front/depth.rs`).
 #[cfg(target_arch = "wasm32")]
-fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, Errors> {
+pub(crate) fn deep<T: Send>(work: impl FnOnce() -> Result<T, Errors> + Send) -> Result<T, Errors> {
     work()
 }

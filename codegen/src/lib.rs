@@ -58,6 +58,7 @@ mod kernel;
 mod pipeline;
 pub mod spec;
 mod stages;
+pub mod testing;
 
 pub use compiled::Compiled;
 pub use config::{Config, compile};

@@ -21,4 +21,5 @@ mod one_mistake;
 mod option_values;
 mod places;
 mod syn_variants;
+mod testing;
 mod validated;

@@ -1,0 +1,36 @@
+//! Results of tests.
+
+use straightline_evaluator::diagnostic::Errors;
+
+/// Result of a test.
+#[derive(Debug)]
+pub enum Verdict {
+    /// All assertions hold.
+    Passed(Passed),
+    /// An assertion fails, or the test could not be run.
+    Failed(Box<Failure>),
+}
+
+/// A test that holds.
+#[derive(Debug)]
+pub struct Passed {
+    /// Cases that `assume` did not pass over.
+    pub cases: usize,
+    /// A remark if an assertion fails in `f64` alone.
+    pub note: Option<Errors>,
+}
+
+/// A test that fails.
+#[derive(Debug)]
+pub struct Failure {
+    /// The failure with its place.
+    pub errors: Errors,
+    /// The runner on which it fails; `None` if it could not be run.
+    pub runner: Option<String>,
+    /// The minimised arguments, as Rust statements.
+    pub inputs: Vec<String>,
+    /// The assertion's values, left and right, as Rust text.
+    pub values: [Option<String>; 2],
+    /// Their distance in units of the last place.
+    pub ulps: Option<u32>,
+}
