@@ -39,6 +39,7 @@ fn run_command(arguments: Arguments) -> Result<(), Failure> {
         Command::Check(args) => commands::check::check_kernels(&args),
         Command::Explain(args) => commands::explain::explain_kernel(&args),
         Command::Run(args) => commands::run::run_kernel(&args),
+        Command::Test(args) => commands::test::run_tests(&args),
         Command::Watch(args) => commands::watch::watch_kernel(&args),
         #[cfg(feature = "study")]
         Command::Budget(args) => commands::budget::measure_budget(&args),

@@ -11,6 +11,7 @@ mod run;
 mod study;
 #[cfg(feature = "study")]
 mod sweep;
+mod test;
 #[cfg(feature = "study")]
 mod tune;
 
@@ -41,6 +42,7 @@ pub use study::{
 };
 #[cfg(feature = "study")]
 pub use sweep::{MergeArgs, RecordsArgs, SweepArgs};
+pub use test::TestArgs;
 #[cfg(feature = "study")]
 pub use tune::TuneArgs;
 
@@ -70,6 +72,8 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Run a kernel on pictures
     Run(RunArgs),
+    /// Run the tests of a kernel's file as shaders
+    Test(TestArgs),
     /// Emit a kernel again whenever its file is saved, and update its picture
     Watch(WatchArgs),
     /// Measure the cost of a frame with and without SRAA: time, memory and reads

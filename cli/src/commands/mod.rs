@@ -28,6 +28,7 @@ pub mod scenes;
 pub mod shell;
 #[cfg(feature = "study")]
 pub mod study;
+pub mod test;
 #[cfg(feature = "study")]
 pub mod tune;
 pub mod watch;

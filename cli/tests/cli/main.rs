@@ -21,6 +21,7 @@ mod run;
 mod sources;
 mod study;
 mod sweep;
+mod testing;
 mod tune;
 mod watch;
 mod words;
