@@ -8,6 +8,12 @@ mod shaders {
     straightline_runtime::include_shaders!();
 }
 
+/// The kernel as Rust, with its tests.
+#[cfg(test)]
+#[path = "kernels/lens.rs"]
+#[allow(dead_code, reason = "the program runs it as a shader")]
+mod lens;
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut words = std::env::args().skip(1);
     let (Some(from), Some(to)) = (words.next(), words.next()) else {

@@ -13,6 +13,30 @@ pub fn lens(image: &Texture<Vec4>, linear: &Sampler, strength: f32, resolution: 
         let seen = image.sample(linear, 0.5 + away * bend);
         colour += [Vec3::X, Vec3::Y, Vec3::Z][band] * seen[band];
     }
-    let light = 1.0 - strength * smoothstep(0.1, 0.5, away.length_squared());
-    (colour * light).extend(1.0)
+    (colour * light(away, strength)).extend(1.0)
+}
+
+/// The part of the light that arrives `away` from the middle.
+fn light(away: Vec2, strength: f32) -> f32 {
+    1.0 - strength * smoothstep(0.1, 0.5, away.length_squared())
+}
+
+// `cargo test` runs them natively, and `straightline test src/kernels/lens.rs` as shaders.
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use straightline_kernels::testing::*;
+
+    #[test]
+    fn light_is_from_none_to_all() {
+        for_all_in((-0.5..=0.5, unit()), |away: Vec2, strength: f32| {
+            assert!(light(away, strength) >= 0.0);
+            assert!(light(away, strength) <= 1.0);
+        });
+    }
+
+    #[test]
+    fn a_lens_without_strength_takes_no_light() {
+        for_all_in(-0.5..=0.5, |away: Vec2| assert_close(light(away, 0.0), 1.0, ulp(0)));
+    }
 }
