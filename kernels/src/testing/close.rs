@@ -57,11 +57,11 @@ fn ordinal_of_float(x: f32) -> i32 {
 /// Values that have a distance.
 pub trait Close {
     /// Returns whether two values, or all of their components, are within a tolerance. A NaN is not close to anything.
-    fn is_close(self, other: Self, tolerance: Tolerance) -> bool;
+    fn close_to(self, other: Self, tolerance: Tolerance) -> bool;
 }
 
 impl Close for f32 {
-    fn is_close(self, other: f32, tolerance: Tolerance) -> bool {
+    fn close_to(self, other: f32, tolerance: Tolerance) -> bool {
         let distance = (self - other).abs();
         let greater = self.abs().max(other.abs());
         self == other
@@ -72,24 +72,24 @@ impl Close for f32 {
 }
 
 impl Close for Vec2 {
-    fn is_close(self, other: Vec2, tolerance: Tolerance) -> bool {
-        self.x.is_close(other.x, tolerance) && self.y.is_close(other.y, tolerance)
+    fn close_to(self, other: Vec2, tolerance: Tolerance) -> bool {
+        self.x.close_to(other.x, tolerance) && self.y.close_to(other.y, tolerance)
     }
 }
 
 impl Close for Vec3 {
-    fn is_close(self, other: Vec3, tolerance: Tolerance) -> bool {
-        self.x.is_close(other.x, tolerance)
-            && self.y.is_close(other.y, tolerance)
-            && self.z.is_close(other.z, tolerance)
+    fn close_to(self, other: Vec3, tolerance: Tolerance) -> bool {
+        self.x.close_to(other.x, tolerance)
+            && self.y.close_to(other.y, tolerance)
+            && self.z.close_to(other.z, tolerance)
     }
 }
 
 impl Close for Vec4 {
-    fn is_close(self, other: Vec4, tolerance: Tolerance) -> bool {
-        self.x.is_close(other.x, tolerance)
-            && self.y.is_close(other.y, tolerance)
-            && self.z.is_close(other.z, tolerance)
-            && self.w.is_close(other.w, tolerance)
+    fn close_to(self, other: Vec4, tolerance: Tolerance) -> bool {
+        self.x.close_to(other.x, tolerance)
+            && self.y.close_to(other.y, tolerance)
+            && self.z.close_to(other.z, tolerance)
+            && self.w.close_to(other.w, tolerance)
     }
 }

@@ -38,7 +38,7 @@ pub use value::{Bits, Value};
 /// If they are not, with both values and their distance.
 #[track_caller]
 pub fn assert_close<T: Close + Copy + Debug + Components>(a: T, b: T, tolerance: Tolerance) {
-    if a.is_close(b, tolerance) {
+    if a.close_to(b, tolerance) {
         return;
     }
     let pairs = a.components().into_iter().zip(b.components());

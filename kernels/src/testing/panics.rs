@@ -49,7 +49,10 @@ pub fn run_caught(property: impl FnOnce()) -> Outcome {
 }
 
 fn describe_panic(info: &PanicHookInfo<'_>) -> String {
-    let message = info.payload_as_str().unwrap_or("a panic without a message");
+    let payload = info.payload();
+    let text = payload.downcast_ref::<&str>().copied();
+    let message = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+    let message = message.unwrap_or("a panic without a message");
     match info.location() {
         Some(at) => format!("{}:{}: {message}", at.file(), at.line()),
         None => message.to_owned(),

@@ -31,7 +31,7 @@ pub fn read_arguments(
     file: u32,
     closure: &syn::ExprClosure,
     ranges: Option<&syn::Expr>,
-) -> Result<Vec<(String, Argument)>, Diagnostic> {
+) -> Result<Vec<(String, Argument)>, Box<Diagnostic>> {
     let mut arguments = Vec::new();
     for (k, input) in closure.inputs.iter().enumerate() {
         let syn::Pat::Type(typed) = input else {
@@ -176,8 +176,9 @@ fn number_of(expr: &syn::Expr) -> Option<f64> {
 }
 
 /// An error about a test that no kernel can be made of.
-pub fn unsupported(file: u32, at: &impl Spanned, what: &str, help: &str) -> Diagnostic {
-    Diagnostic::error_at(Code::NotInLanguage, token_span(file, at.span()), what)
+pub fn unsupported(file: u32, at: &impl Spanned, what: &str, help: &str) -> Box<Diagnostic> {
+    let error = Diagnostic::error_at(Code::NotInLanguage, token_span(file, at.span()), what)
         .label("not supported in a test that runs as a shader")
-        .help(help)
+        .help(help);
+    Box::new(error)
 }

@@ -118,7 +118,7 @@ fn record_call(
         ("assert_close", [a, b, tolerance]) => {
             // Inference knows calls by their places: this one must not have that of the record.
             let (inside, left) = (group.span(), Ident::new(VALUE_NAMES[0], group.span()));
-            let close = quote_spanned!(inside=> #left.is_close(#right, #tolerance));
+            let close = quote_spanned!(inside=> #left.close_to(#right, #tolerance));
             (SiteKind::Close, vec![a, b], close)
         }
         ("assume", [condition]) => (SiteKind::Assume, Vec::new(), condition.to_token_stream()),

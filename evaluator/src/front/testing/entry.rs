@@ -71,7 +71,7 @@ fn describe_test(file: u32, path: &str, function: &syn::ItemFn) -> Test {
     let (mut arguments, mut errors) = (Vec::new(), Vec::new());
     match property_arguments(file, function) {
         Ok(found) => arguments = found,
-        Err(error) => errors.push(error),
+        Err(error) => errors.push(*error),
     }
     Test {
         path: path.to_owned(),
@@ -84,7 +84,7 @@ fn describe_test(file: u32, path: &str, function: &syn::ItemFn) -> Test {
 }
 
 /// The arguments of the property of a test.
-fn property_arguments(file: u32, function: &syn::ItemFn) -> Result<Vec<(String, Argument)>, Diagnostic> {
+fn property_arguments(file: u32, function: &syn::ItemFn) -> Result<Vec<(String, Argument)>, Box<Diagnostic>> {
     let refused = |at: &dyn ToTokens, what: &str, help: &str| Err(unsupported(file, &at.to_token_stream(), what, help));
     if let Some(attr) = function.attrs.iter().find(|attr| attr.path().is_ident("should_panic")) {
         return refused(
