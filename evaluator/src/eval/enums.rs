@@ -6,8 +6,8 @@ use super::departures::Tail;
 use super::value::{Eval, Exit, Jump, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
-use crate::front::tree::{Enum, Expr};
-use crate::ir::{BinaryOp, NodeId, Op, Type};
+use crate::front::tree::{Enum, Expr, ExprKind};
+use crate::ir::{BinaryOp, NodeId, Op, Type, UnaryOp};
 use crate::policy::Branches;
 use std::rc::Rc;
 
@@ -118,10 +118,17 @@ impl Evaluator<'_> {
         for variant in &definition.variants {
             let discriminant = match &variant.discriminant {
                 Some(stated) => {
-                    let value = self.eval_value(stated)?;
-                    self.as_constant(&value).ok_or_else(|| {
+                    // A number without a type, whose sign would be one of a `usize`.
+                    let (sign, number) = match &stated.kind {
+                        ExprKind::Unary(UnaryOp::Neg, number) => (-1, &**number),
+                        _ => (1, stated),
+                    };
+                    let value = self.eval_value(number)?;
+                    let known = self.as_constant(&value).ok_or_else(|| {
                         Diagnostic::error_at(Code::RuntimeValue, stated.span, "a discriminant is a constant integer")
-                    })?
+                            .label("a runtime value")
+                    })?;
+                    sign * known
                 }
                 None => found.last().map_or(0, |last| last + 1),
             };
