@@ -283,7 +283,7 @@ fn functions_that_no_kernel_reaches_may_be_outside_of_the_language() {
 #[test]
 fn notes_help_and_further_places_are_kept() {
     let folder = scratch("check-parts");
-    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let b = color.load(pixel).x.round();\n    Vec4::splat(b)\n}\n";
+    let text = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    let b = color.load(pixel).x.exp_m1();\n    Vec4::splat(b)\n}\n";
     let kernel = write(&folder, "k.rs", text);
     let (found, _) = messages(&["check", &kernel, "--message-format", "json"]);
     let children: Vec<_> = found[0]
@@ -294,7 +294,7 @@ fn notes_help_and_further_places_are_kept() {
     let label = found[0].spans[0].label.as_deref().expect("a label");
     assert!(children.contains(&(DiagnosticLevel::Note, label)), "{children:?}");
     assert!(
-        children.contains(&(DiagnosticLevel::Help, "write `round(x)`")),
+        children.contains(&(DiagnosticLevel::Help, "write `x.exp() - 1.0`")),
         "{children:?}"
     );
     assert_eq!(
