@@ -42,7 +42,14 @@ impl Maker {
                 .pick(&[0x9e37_79b9, 0xffff_ffff, 0x8000_0000, 1_000_000_007, 4096]),
             _ => self.random.between(0, 7),
         };
-        self.int_text(ty, n, inferred)
+        // Some are of fewer bits.
+        match (ty, n) {
+            (Ty::I32, 5) => "(5_u8 as i32)".to_owned(),
+            (Ty::I32, -7) => "(-7_i8 as i32)".to_owned(),
+            (Ty::I32, 1000) => "(1000_u16 as i32)".to_owned(),
+            (Ty::I32, -12_345) => "(-12345_i16 as i32)".to_owned(),
+            _ => self.int_text(ty, n, inferred),
+        }
     }
 
     /// Two operands of one type: rustc tells the literals of one from the other.
