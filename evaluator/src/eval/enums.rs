@@ -286,21 +286,29 @@ impl Evaluator<'_> {
 
     fn equal_choices(&mut self, a: &EnumValue, b: &EnumValue, span: Span) -> Eval<NodeId> {
         let mut any = self.builder.bool(false);
+        for (both, pairs) in self.common_variants(a, b) {
+            let fields = self.all_equal(pairs, span)?;
+            let same = self.and(both, fields);
+            any = self.or(any, same);
+        }
+        Ok(any)
+    }
+
+    /// Returns the variants that two values may both be: the condition that they are, and their fields in pairs.
+    pub fn common_variants(&mut self, a: &EnumValue, b: &EnumValue) -> Vec<(NodeId, Vec<(Value, Value)>)> {
+        let mut found = Vec::new();
         for k in 0..a.variants.len() {
             let (Some(x), Some(y)) = (a.variant_fields(k), b.variant_fields(k)) else {
                 continue;
             };
             let (of_a, of_b) = (self.is_variant(a, k), self.is_variant(b, k));
             let both = self.and(of_a, of_b);
-            if self.known_bool(both) == Some(false) {
-                continue;
+            if self.known_bool(both) != Some(false) {
+                let pairs = x.iter().zip(y).map(|((_, x), (_, y))| (x.clone(), y.clone()));
+                found.push((both, pairs.collect()));
             }
-            let pairs = x.iter().zip(y).map(|((_, x), (_, y))| (x.clone(), y.clone()));
-            let fields = self.all_equal(pairs.collect(), span)?;
-            let same = self.and(both, fields);
-            any = self.or(any, same);
         }
-        Ok(any)
+        found
     }
 
     fn listed_array(&mut self, value: &Value, span: Span) -> Eval<Vec<Value>> {

@@ -83,21 +83,29 @@ impl Evaluator<'_> {
     }
 
     /// Returns a value of an item's type: that of the first one, whether a filter takes it or not.
-    fn first_item(&mut self, item: Value, stages: &[Stage], span: Span) -> Eval {
-        let raw = item.clone();
-        let mut item = item;
+    fn first_item(&mut self, raw: Value, stages: &[Stage], span: Span) -> Eval {
+        let mut item = raw.clone();
         for stage in stages {
-            item = match stage {
-                Stage::Map(f) => self.call_item_closure(f, vec![item], span)?,
-                Stage::Enumerate(start) => self.enumerated(&raw, start, item, span)?,
-                Stage::FilterMap(f) => {
-                    let found = self.call_item_closure(f, vec![item], span)?;
-                    self.held_value(&found)?.1
-                }
-                Stage::Filter(_) | Stage::Flatten => item,
-            };
+            item = self.apply_stage(stage, &raw, item, span)?.1;
         }
         Ok(item)
+    }
+
+    /// Applies an adaptor to a value. Returns the condition that it does not leave the value out, if it may, and what it
+    /// makes of it.
+    fn apply_stage(&mut self, stage: &Stage, raw: &Value, item: Value, span: Span) -> Eval<(Option<NodeId>, Value)> {
+        let found = match stage {
+            Stage::Map(f) => return Ok((None, self.call_item_closure(f, vec![item], span)?)),
+            Stage::Enumerate(start) => return Ok((None, self.enumerated(raw, start, item, span)?)),
+            Stage::Filter(f) => {
+                let holds = self.call_item_closure(f, vec![item.clone()], span)?;
+                return Ok((Some(self.value_node(&holds, span)?), item));
+            }
+            Stage::FilterMap(f) => self.call_item_closure(f, vec![item], span)?,
+            Stage::Flatten => item,
+        };
+        let (holds, held) = self.held_value(&found)?;
+        Ok((Some(holds), held))
     }
 
     /// Evaluates a loop's body for a value behind adaptors: under the condition that none of them leaves it out.
@@ -114,23 +122,7 @@ impl Evaluator<'_> {
                 None => Err(Exit::Noted),
             };
         };
-        let (holds, item) = match stage {
-            Stage::Map(f) => (None, self.call_item_closure(f, vec![item], span)?),
-            Stage::Enumerate(start) => (None, self.enumerated(&raw, start, item, span)?),
-            Stage::Filter(f) => {
-                let holds = self.call_item_closure(f, vec![item.clone()], span)?;
-                (Some(self.value_node(&holds, span)?), item)
-            }
-            Stage::FilterMap(f) => {
-                let found = self.call_item_closure(f, vec![item], span)?;
-                let (holds, item) = self.held_value(&found)?;
-                (Some(holds), item)
-            }
-            Stage::Flatten => {
-                let (holds, item) = self.held_value(&item)?;
-                (Some(holds), item)
-            }
-        };
+        let (holds, item) = self.apply_stage(stage, &raw, item, span)?;
         let behind = |e: &mut Self| e.eval_staged_body(rest, [raw, item], body, span);
         let Some(condition) = holds else {
             return behind(self);

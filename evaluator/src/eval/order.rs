@@ -43,17 +43,8 @@ impl Evaluator<'_> {
         let (first, second) = (self.discriminant_of(a, span)?, self.discriminant_of(b, span)?);
         let before = self.eval_binary(strict_order(op), &first, &second, span)?;
         let mut holds = self.value_node(&before, span)?;
-        for k in 0..a.variants.len() {
-            let (Some(x), Some(y)) = (a.variant_fields(k), b.variant_fields(k)) else {
-                continue;
-            };
-            let (of_a, of_b) = (self.is_variant(a, k), self.is_variant(b, k));
-            let both = self.and(of_a, of_b);
-            if self.known_bool(both) == Some(false) {
-                continue;
-            }
-            let pairs = x.iter().zip(y).map(|((_, x), (_, y))| (x.clone(), y.clone()));
-            let fields = self.ordered_parts(op, pairs.collect(), span)?;
+        for (both, pairs) in self.common_variants(a, b) {
+            let fields = self.ordered_parts(op, pairs, span)?;
             let same = self.and(both, fields);
             holds = self.or(holds, same);
         }
