@@ -1,6 +1,7 @@
 //! A compiled kernel: the input of the interpreter and of emission.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::time::Duration;
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File, Span};
@@ -45,6 +46,8 @@ pub struct Compiled {
     pub unshared: Option<Arc<Graph>>,
     /// Reads that became gathers, if requested.
     pub gathered: Arc<[Gathered]>,
+    /// Names of the values that are computed in half precision.
+    pub half: BTreeSet<String>,
     /// For a kernel whose invocations are lanes: the graph in which one invocation computes the whole quad.
     pub quad: Option<Arc<Graph>>,
     /// Limits on compiling and emitting.

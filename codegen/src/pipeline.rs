@@ -93,6 +93,7 @@ pub fn compile(
         sharing,
         unshared,
         gathered,
+        half: settings.half.clone(),
         quad,
         limits: settings.limits(),
         work: meter.work(),

@@ -1,10 +1,12 @@
 //! The stages from an evaluated graph to the graph that is scheduled: a list of passes, each with the reason for its
 //! position.
 
+mod half;
 mod lanes;
 mod sharing;
 
 use crate::spec::Settings;
+use std::borrow::Cow;
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Span};
 use straightline_evaluator::ir::{Graph, Invocation};
@@ -94,11 +96,12 @@ impl Made {
 /// A setting that does not fit the kernel, with the setting to use instead.
 pub struct Refusal {
     message: String,
-    help: &'static str,
+    help: Cow<'static, str>,
 }
 
 impl Refusal {
-    fn new(message: String, help: &'static str) -> Self {
+    fn new(message: String, help: impl Into<Cow<'static, str>>) -> Self {
+        let help = help.into();
         Refusal { message, help }
     }
 
@@ -137,6 +140,13 @@ pub const STAGES: &[Stage] = &[
         reason: "Before lanes and pixels are put into one invocation, so that every form has the same roundings.",
         applies: |work| work.settings.math == Math::Fast,
         run: |work| Ok(Made::Kernel(passes::apply_fast_math(&work.graph))),
+    },
+    Stage {
+        name: "half",
+        reason: "After fast, which must see constants as they are written; before lanes and pixels are put into one \
+                 invocation, so that every form has the same roundings.",
+        applies: |work| !work.settings.half.is_empty(),
+        run: half::lower_to_half,
     },
     Stage {
         name: "block",
@@ -207,7 +217,10 @@ mod tests {
         let all = Settings::new();
         let mut never_run: Vec<&str> = STAGES.iter().map(|stage| stage.name).collect();
         for (kernel, settings) in [
-            ("sraa", all.clone().math(Math::Fast).block(2, 1)),
+            (
+                "sraa",
+                all.clone().math(Math::Fast).half(["weights".to_owned()]).block(2, 1),
+            ),
             ("sraa", all.clone().share(Share::WORKGROUP)),
             ("sraa", all.clone().reads(ReadOrder::Gather)),
             ("quad_convolution", all.transport(Transport::Derivatives)),

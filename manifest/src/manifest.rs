@@ -24,6 +24,9 @@ pub struct Manifest {
     /// Precision of the shader's arithmetic. Uniforms, buffers and textures are the same in every precision.
     #[serde(default, skip_serializing_if = "Precision::is_default")]
     pub precision: Precision,
+    /// Values of the kernel that are computed in half precision, by their names in its source.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub half: BTreeSet<String>,
     /// Form: a complete shader, or a function for another.
     #[serde(default, skip_serializing_if = "Form::is_default")]
     pub form: Form,

@@ -7,15 +7,14 @@ use super::resources::{BoundTexture, Resources};
 use crate::compiled::Compiled;
 use straightline_evaluator::ir::{Element, Field, Scalar, Texture, TextureKind};
 use straightline_manifest::{
-    Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Precision, REGION_SIZE,
-    SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
+    Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, REGION_SIZE, SCHEMA,
+    SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
 };
 
 impl Resources {
     /// Optional device features that the shader needs.
     fn device_features(&self) -> Vec<String> {
-        let half = self.options.precision == Precision::F16;
-        let features = [(self.subgroups, "subgroup"), (half, "shader-f16")];
+        let features = [(self.subgroups, "subgroup"), (self.half, "shader-f16")];
         let needed = features.into_iter().filter(|(needed, _)| *needed);
         needed.map(|(_, name)| name.to_owned()).collect()
     }
@@ -111,6 +110,7 @@ impl Resources {
             stage: self.options.stage,
             unroll: compiled.policy.to_string(),
             precision: self.options.precision,
+            half: compiled.half.clone(),
             form: self.options.form,
             origin: self.options.origin,
             entry_point: self.entry.clone(),

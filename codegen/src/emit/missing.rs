@@ -21,14 +21,16 @@ pub fn check_features(compiled: &Compiled, resources: &Resources, target: Target
         Target::Essl300 => ("essl300", true, true),
         _ => ("glsl450", false, false),
     };
-    if resources.options.precision == Precision::F16 {
+    if resources.half {
         let what = format!(
             "`{}` in half precision cannot be written in {name}, where naga knows no f16",
             compiled.kernel
         );
-        return Err(
-            Refusal::new(Code::NotInTarget, what).help("use wgsl, spirv, hlsl or msl, or leave the precision at f32")
-        );
+        let leave = match resources.options.precision {
+            Precision::F16 => "leave the precision at f32",
+            Precision::F32 => "leave `half` out",
+        };
+        return Err(Refusal::new(Code::NotInTarget, what).help(format!("use wgsl, spirv, hlsl or msl, or {leave}")));
     }
     let graph = &compiled.graph;
     let live = graph.node_ids().filter(|id| compiled.schedule.has_node(*id));

@@ -250,7 +250,7 @@ fn value_name(graph: &Graph, id: NodeId) -> String {
             _ => "as_integer".to_owned(),
         },
         Op::Bitcast => "bits".to_owned(),
-        Op::Exact => value_name(graph, node.args[0]),
+        Op::Exact | Op::Half => value_name(graph, node.args[0]),
         Op::Param(_, 0) => "k".to_owned(),
         Op::Param(..) => "carried".to_owned(),
         _ => "vector".to_owned(),

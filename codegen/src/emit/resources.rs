@@ -17,7 +17,7 @@ use straightline_evaluator::ir::{
     Structure, Texture, Type, Uniform, Varying,
 };
 use straightline_evaluator::passes::layers_read;
-use straightline_manifest::{REGION, Stage, UniformField};
+use straightline_manifest::{Precision, REGION, Stage, UniformField};
 
 /// A texture that the shader reads.
 #[derive(Clone, Debug)]
@@ -92,6 +92,8 @@ pub struct Resources {
     pub needs_frame: bool,
     /// `true` if lanes of quads communicate by quad operations.
     pub subgroups: bool,
+    /// `true` if the shader computes in half precision, wholly or partly.
+    pub half: bool,
     /// Interpolated values in use, by their locations.
     pub varyings: Vec<Varying>,
     /// Width and height of the block of pixels that one invocation computes.
@@ -246,6 +248,7 @@ impl Resources {
             .map(|t| BoundOutput::new(t, options.format))
             .collect();
         let subgroups = ops.iter().any(|op| matches!(op, Op::QuadSwap(_)));
+        let half = options.precision == Precision::F16 || ops.contains(&&Op::Half);
         let used = |k: usize| ops.iter().any(|op| **op == Op::Varying(k as u32));
         let varyings = graph.varyings.iter().enumerate().filter(|(k, _)| used(*k));
         let varyings: Vec<Varying> = varyings.map(|(_, v)| v.clone()).collect();
@@ -353,6 +356,7 @@ impl Resources {
             uniform_size,
             needs_frame,
             subgroups,
+            half,
             varyings,
             block: graph.invocation.block_size(),
             group,

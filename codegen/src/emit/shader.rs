@@ -92,15 +92,15 @@ impl Shader<'_, '_> {
         let options = &self.resources.options;
         let wgsl = self.own_wgsl(counts);
         if options.is_function() {
-            let enabled = match options.precision {
-                Precision::F32 => wgsl.clone(),
-                Precision::F16 => format!("enable f16;\n{wgsl}"),
+            let enabled = match self.resources.half {
+                false => wgsl.clone(),
+                true => format!("enable f16;\n{wgsl}"),
             };
             let read = enabled + &host_reads::host_stubs(&self.wgsl.resources);
             translate::Module::parse_wgsl(&self.compiled.kernel, &read)?;
         }
         Ok(match options.enable_subgroups && self.resources.subgroups {
-            true => format!("enable subgroups;\n{}{wgsl}", directive_gap(options.precision)),
+            true => format!("enable subgroups;\n{}{wgsl}", directive_gap(self.resources.half)),
             false => wgsl,
         })
     }
@@ -151,9 +151,6 @@ fn finish_tree(tree: &mut ast::Module<'_>, resources: &Resources, target: Target
 }
 
 /// Text between a directive and the directive or header that follows it.
-fn directive_gap(precision: Precision) -> &'static str {
-    match precision {
-        Precision::F32 => "\n",
-        Precision::F16 => "",
-    }
+fn directive_gap(half: bool) -> &'static str {
+    if half { "" } else { "\n" }
 }

@@ -88,6 +88,7 @@ pub fn apply_op<R: Real>(op: &Op, operand: Type, args: &[Cells], ty: Type) -> Op
         Op::Bitcast => map_components(lanes, |k| {
             bitcast_cell::<R>(args[0][k], operand.scalar_kind()?, ty.scalar_kind()?)
         })?,
+        Op::Half => map_components(lanes, |k| Some(real(args[0][k]).to_half().to_bits()))?,
         Op::Exact | Op::Tally(_) => args[0],
         _ => return None,
     })

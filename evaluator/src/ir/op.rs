@@ -150,6 +150,9 @@ pub enum Op {
     /// The argument, floats, as the operation that computed it rounds it: no compiler may merge, reorder or contract that
     /// operation with others (`docs/semantics.md`, *Exactness*).
     Exact,
+    /// The argument, floats, rounded to half precision: to the nearest `f16`, beyond 65504 to an infinity. An operation
+    /// whose arguments and result are rounded so is an operation of half precision. In `f64`, the value itself.
+    Half,
     /// A value counted by name (index into `Graph::tallies`); returns the value itself.
     Tally(u32),
     /// An array from its elements.

@@ -473,6 +473,7 @@ impl GraphParser {
             },
             "tally" => Op::Tally(find_position(g.tallies.iter(), word(0)?).ok_or_else(|| missing("tally"))?),
             "exact" => Op::Exact,
+            "half" => Op::Half,
             "makearray" => Op::MakeArray,
             "arrayget" => Op::ArrayGet,
             "arrayset" => Op::ArraySet,

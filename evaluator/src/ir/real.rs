@@ -20,6 +20,10 @@ pub trait Real:
     fn made(x: f64) -> Self {
         Self::from_f64(x)
     }
+    /// The nearest `f16`; in `f64`, which is the truth that others are compared with, the number itself.
+    fn to_half(self) -> Self {
+        self
+    }
     /// Converts to `f64`, which is lossless.
     fn to_f64(self) -> f64;
     /// Bits of the number, the unused high ones 0.
@@ -33,13 +37,18 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($ty:ty, $bits:ty) => {
+    ($ty:ty, $bits:ty, |$x:ident| $half:expr) => {
         impl Real for $ty {
             const NAME: &'static str = stringify!($ty);
             type Sampled = $ty;
 
             fn from_f64(x: f64) -> Self {
                 x as $ty
+            }
+
+            fn to_half(self) -> Self {
+                let $x = self;
+                $half
             }
 
             fn to_f64(self) -> f64 {
@@ -113,8 +122,8 @@ macro_rules! real {
     };
 }
 
-real!(f32, u32);
-real!(f64, u64);
+real!(f32, u32, |x| half::f16::from_f32(x).to_f32());
+real!(f64, u64, |x| x);
 
 /// IEEE 754 binary16. Every operation is computed in `f32` and rounded, which is the correctly rounded result for + - * /
 /// and the square root.

@@ -281,7 +281,7 @@ fn check_node(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), St
             expect((*k as usize) < graph.tallies.len(), "no such tally")?;
             expect(types[0] == node.ty, "type of argument and result differ")
         }
-        Op::Exact => {
+        Op::Exact | Op::Half => {
             count(1)?;
             expect(types[0] == node.ty, "type of argument and result differ")?;
             expect(value && node.ty.is_float(), "floats, which alone are rounded")

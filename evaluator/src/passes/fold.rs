@@ -28,7 +28,8 @@ impl Rules for Exact {
 /// Folds an operation on constants.
 fn fold_constant(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option<NodeId> {
     let (first, last) = (args.first()?, args.last()?);
-    if ty.is_array() {
+    // The constant under `Half` stays, since `f64` does not round it.
+    if ty.is_array() || *op == Op::Half {
         return None;
     }
     let mut operands = [[0; 4]; arith::MOST_OPERANDS];
@@ -83,7 +84,7 @@ fn fold_shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option
             .graph()
             .constant_bits(args[0])
             .map(|c| if c[0] != 0 { args[1] } else { args[2] }),
-        Op::Exact if node(args[0]).op == Op::Exact => Some(args[0]),
+        Op::Exact | Op::Half if node(args[0]).op == *op => Some(args[0]),
         Op::Convert if b.graph().ty(args[0]) == ty => Some(args[0]),
         // Conversions from a signed integer to an unsigned one and back keep the bits.
         Op::Convert

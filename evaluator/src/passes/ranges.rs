@@ -2,7 +2,7 @@
 //!
 //! File tests: `evaluator/tests/filetests/passes/ranges`.
 
-use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Scalar, Type, UnaryOp, usize_value};
+use crate::ir::{BinaryOp, Builder, Graph, Invocation, NodeId, Op, Real, Scalar, Type, UnaryOp, usize_value};
 
 /// Maximum depth of arguments that a query follows. Nothing is known beyond it.
 const DEPTH: u32 = 12;
@@ -33,9 +33,12 @@ fn at_depth(g: &Graph, id: NodeId, depth: u32) -> bool {
             x.is_nan() || x.is_sign_positive()
         }),
         Op::Unary(UnaryOp::Abs | UnaryOp::Exp | UnaryOp::Exp2 | UnaryOp::Saturate) => true,
-        Op::Unary(UnaryOp::Sqrt | UnaryOp::InverseSqrt) | Op::Exact | Op::Tally(_) | Op::Splat | Op::Extract(_) => {
-            known(0)
-        }
+        Op::Unary(UnaryOp::Sqrt | UnaryOp::InverseSqrt)
+        | Op::Exact
+        | Op::Half
+        | Op::Tally(_)
+        | Op::Splat
+        | Op::Extract(_) => known(0),
         // A square is nonnegative; sums, products and quotients are if their operands are.
         Op::Binary(BinaryOp::Mul) if node.args[0] == node.args[1] => true,
         Op::Binary(BinaryOp::Add | BinaryOp::Mul | BinaryOp::Div | BinaryOp::Min | BinaryOp::Max) => {
@@ -230,6 +233,7 @@ fn floats_at(g: &Graph, id: NodeId, component: u8, depth: u32) -> Option<(f32, f
         Op::Compose => floats_at(g, node.args[component as usize], 0, depth - 1),
         Op::Extract(k) => floats_at(g, node.args[0], *k, depth - 1),
         Op::Exact | Op::Tally(_) => of(0),
+        Op::Half => monotonic(f32::to_half),
         Op::Unary(UnaryOp::Neg) => of(0).map(|(low, high)| (-high, -low)),
         Op::Unary(UnaryOp::Abs) => of(0).map(|(low, high)| (0.0, low.abs().max(high.abs()))),
         Op::Unary(UnaryOp::Floor) => monotonic(f32::floor),

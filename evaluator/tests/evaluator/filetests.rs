@@ -2,7 +2,7 @@
 //!
 //! A case is a graph of a few nodes with a directive:
 //!
-//! - `// run: PASS`: the graph after `// gives` is the result of the pass.
+//! - `// run: PASS`, or `// run: half NAMES`: the graph after `// gives` is the result of the pass.
 //! - `// verify: TEXT` or `// parse: TEXT`: the error contains the text.
 
 use crate::cases::{self, directive, input, with_output};
@@ -28,12 +28,16 @@ fn now(text: &str) -> Result<String, String> {
         };
     }
     verified?;
-    let made = match directive(text, "run").ok_or("no directive")? {
+    let directive = directive(text, "run").ok_or("no directive")?;
+    let (pass, names) = directive.split_once(' ').unwrap_or((directive, ""));
+    let names = || names.split(' ').map(str::to_owned).collect();
+    let made = match pass {
         "clean" => passes::clean_graph(&graph),
         "share-loads" => passes::share_loads(&graph),
         "coordinates" => passes::clean_graph(&passes::by_component(&graph)),
         "exactness" => passes::clean_graph(&passes::mark_exact_ops(&graph)),
         "fast" => passes::clean_graph(&passes::apply_fast_math(&graph)),
+        "half" => passes::clean_graph(&passes::lower_to_half(&graph, &names())),
         "gathers" => passes::clean_graph(&passes::form_gathers(&graph)?.0),
         "share-by-workgroup" => passes::clean_graph(&passes::by_workgroup(&graph, [4, 4])?.0),
         other => return Err(format!("there is no pass `{other}`")),
@@ -44,5 +48,5 @@ fn now(text: &str) -> Result<String, String> {
 
 #[test]
 fn passes_make_the_graphs_of_the_files() {
-    cases::run(55, now);
+    cases::run(60, now);
 }

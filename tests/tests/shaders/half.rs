@@ -8,6 +8,7 @@
 //! rounded as they come in, and WGSL leaves open in which direction: llvmpipe truncates, the interpreter takes the nearest.
 
 use crate::common;
+mod chosen;
 mod emitted;
 mod kernels;
 mod quads;
@@ -26,14 +27,19 @@ fn compile_text(text: &str, settings: &Settings) -> Compiled {
     compiled.unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-/// A device that has half precision.
+/// A device that has half precision, in which all floats of a kernel are.
 fn half_bench() -> Bench {
+    capable_bench().with_precision(Precision::F16)
+}
+
+/// A device that has half precision.
+fn capable_bench() -> Bench {
     let gpu = bench();
     assert!(
         gpu.device().features().contains(wgpu::Features::SHADER_F16),
         "this test needs an adapter with half precision; llvmpipe, of Debian's mesa-vulkan-drivers, has it, SwiftShader does not"
     );
-    gpu.with_precision(Precision::F16)
+    gpu
 }
 
 /// Returns whether the driver is known to round as IEEE 754 defines it, and to contract nothing.

@@ -2,6 +2,7 @@
 //! precision.
 
 use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
+use crate::emit::lower::to_full;
 use straightline_evaluator::ir;
 
 /// The largest finite number of half precision.
@@ -17,7 +18,7 @@ pub fn legalise_half(module: &mut Module<'_>) {
     for stmt in &mut module.body {
         if let StmtKind::Output(values) = &mut stmt.kind {
             for value in values {
-                *value = to_full_precision(value.clone());
+                *value = to_full(value.clone());
             }
         }
     }
@@ -27,7 +28,7 @@ pub fn legalise_half(module: &mut Module<'_>) {
 fn widen_stored(stmt: &mut Stmt<'_>) {
     if let StmtKind::Effect(effect) = &mut stmt.kind {
         for arg in &mut effect.args {
-            *arg = to_full_precision(arg.clone());
+            *arg = to_full(arg.clone());
         }
     }
     stmt.blocks_mut().into_iter().flatten().for_each(widen_stored);
@@ -37,17 +38,6 @@ fn to_half_type(ty: Ty) -> Ty {
     Ty {
         half: ty.is_float(),
         ..ty
-    }
-}
-
-/// Converts a value to full precision.
-fn to_full_precision(expr: Expr) -> Expr {
-    match expr.ty.half {
-        true => {
-            let ty = expr.ty.to_full_precision();
-            expr.convert_to(ty)
-        }
-        false => expr,
     }
 }
 
@@ -83,14 +73,14 @@ fn half_rule(mut expr: Expr) -> Expr {
             | Varying(_)
             | Bitcast,
         ) => {
-            expr.args = expr.args.into_iter().map(to_full_precision).collect();
+            expr.args = expr.args.into_iter().map(to_full).collect();
             to_half_precision(expr)
         }
         // Conversions between half precision and integers go through `f32`, which holds every `f16` and every integer that
         // an `f16` holds. Driver-specific behaviour is then the same as in full precision.
         Op::Convert { fits } => {
             let fits = *fits;
-            expr.args = expr.args.into_iter().map(to_full_precision).collect();
+            expr.args = expr.args.into_iter().map(to_full).collect();
             let clamps = !fits && expr.args[0].ty.is_integer() && expr.ty.is_float();
             if clamps {
                 let ty = expr.ty;

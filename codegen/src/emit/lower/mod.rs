@@ -8,9 +8,10 @@ mod control;
 mod entry;
 mod exactness;
 mod facts;
+mod halves;
 mod interference;
 
-use super::ast::{Block as Statements, Effect, Expr, Module, Op, Stmt, StmtKind, VarId};
+use super::ast::{Block as Statements, Effect, Expr, Module, Op, Stmt, StmtKind, Ty, VarId};
 use super::names::Wanted;
 use super::outputs::whole_texel;
 use super::tidy::simplify_expr;
@@ -18,9 +19,10 @@ use crate::compiled::Compiled;
 use coalescing::ArrayCoalescing;
 use exactness::Exactness;
 use straightline_evaluator::ir::{self, BinaryOp, NodeId, Origin, Type};
-use straightline_evaluator::passes::{Block, Step};
+use straightline_evaluator::passes::{self, Block, Step};
 
 pub use entry::wrap_entry_point;
+pub use halves::{to_full, to_half};
 
 /// Number of uses from which a constant vector gets its own variable.
 const OFTEN: u32 = 6;
@@ -37,6 +39,10 @@ pub fn lower_kernel<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
         indexed: indexed_arrays(compiled),
         exprs: vec![None; graph.nodes.len()],
         half,
+        halves: match half {
+            true => vec![false; graph.nodes.len()],
+            false => halves::half_values(compiled),
+        },
         module: entry::entry_module(),
         block: Vec::new(),
     };
@@ -86,8 +92,10 @@ struct Lowering<'g> {
     indexed: Vec<bool>,
     /// Expression of each node, once it has been evaluated.
     exprs: Vec<Option<Expr>>,
-    /// `true` if floats are in half precision.
+    /// `true` if all floats are in half precision.
     half: bool,
+    /// By node, `true` for an `f16` among floats of full precision.
+    halves: Vec<bool>,
     module: Module<'g>,
     /// Statements of the current block.
     block: Statements<'g>,
@@ -224,7 +232,14 @@ impl<'g> Lowering<'g> {
     fn new_variable(&mut self, id: NodeId) -> VarId {
         let graph = &self.compiled.graph;
         let name = self.wanted.preferred_name(graph, id, self.origins[id.0 as usize]);
-        self.module.new_variable(name, graph.ty(id))
+        self.module.new_variable(name, self.value_type(id))
+    }
+
+    fn value_type(&self, id: NodeId) -> Ty {
+        Ty {
+            half: self.halves[id.0 as usize],
+            ..self.compiled.graph.ty(id).into()
+        }
     }
 
     /// Emits a statement that names a value.
@@ -240,8 +255,13 @@ impl<'g> Lowering<'g> {
         self.block.push(Stmt { kind, origin });
     }
 
-    /// Returns the expression of a node that has been evaluated.
+    /// Returns the expression of a node that has been evaluated, in full precision.
     fn node_expr(&mut self, id: NodeId) -> Expr {
+        to_full(self.held_expr(id))
+    }
+
+    /// Returns the expression of a node that has been evaluated, in the precision that holds its value.
+    fn held_expr(&mut self, id: NodeId) -> Expr {
         if let Some(expr) = &self.exprs[id.0 as usize] {
             return expr.clone();
         }
@@ -260,7 +280,14 @@ impl<'g> Lowering<'g> {
     fn build_expr(&mut self, id: NodeId) -> Expr {
         let graph = &self.compiled.graph;
         let node = graph.node(id);
-        let mut args: Vec<Expr> = node.args.iter().map(|arg| self.node_expr(*arg)).collect();
+        let args: Vec<Expr> = node.args.iter().map(|arg| self.held_expr(*arg)).collect();
+        let in_half = match node.ty.is_float() || passes::keeps_operands(&node.op) {
+            true => self.halves[id.0 as usize],
+            // A comparison.
+            false => halves::operands_are_half(graph, id, &self.halves),
+        };
+        let convert = if in_half { to_half } else { to_full };
+        let mut args: Vec<Expr> = args.into_iter().map(convert).collect();
         let op = match &node.op {
             ir::Op::Pixel => Op::Var(VarId::PIXEL),
             ir::Op::FrameSize => Op::Var(VarId::FRAME),
@@ -279,7 +306,7 @@ impl<'g> Lowering<'g> {
             ir::Op::Convert => Op::Convert {
                 fits: facts::is_convertible(graph, node.args[0], node.ty, self.half),
             },
-            ir::Op::Tally(_) => return args.swap_remove(0),
+            ir::Op::Tally(_) | ir::Op::Half => return args.swap_remove(0),
             // Texels have four components, of which the kernel may take fewer.
             ir::Op::Load { texture, .. } | ir::Op::Sample { texture, .. }
                 if !graph.textures[*texture as usize].kind.is_depth() && node.ty.component_count() < 4 =>
@@ -297,7 +324,7 @@ impl<'g> Lowering<'g> {
         if matches!(op, Op::Var(_)) {
             args.clear();
         }
-        Expr::new(op, args, node.ty)
+        Expr::new(op, args, self.value_type(id))
     }
 }
 

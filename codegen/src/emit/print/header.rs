@@ -34,7 +34,7 @@ pub fn header_lines(compiled: &Compiled, counts: &Counts, resources: &Resources)
         "{what}, unroll {}, {}{}{}{output}.",
         compiled.policy,
         describe_transport(compiled),
-        describe_precision(options.precision),
+        describe_precision(compiled, options.precision),
         describe_origin(options.origin),
     ));
     let reads = match (counts.texture_reads, counts.colour_reads) {
@@ -150,10 +150,14 @@ fn describe_transport(compiled: &Compiled) -> &'static str {
 }
 
 /// Describes the precision, unless it is the default.
-fn describe_precision(precision: Precision) -> &'static str {
+fn describe_precision(compiled: &Compiled, precision: Precision) -> String {
     match precision {
-        Precision::F32 => "",
-        Precision::F16 => "half precision (f16), ",
+        Precision::F32 if compiled.half.is_empty() => String::new(),
+        Precision::F32 => {
+            let names: Vec<&str> = compiled.half.iter().map(String::as_str).collect();
+            format!("in half precision (f16) {}, ", names.join(" and "))
+        }
+        Precision::F16 => "half precision (f16), ".to_owned(),
     }
 }
 

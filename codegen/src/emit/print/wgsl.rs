@@ -11,7 +11,7 @@ use std::fmt::Write;
 use straightline_evaluator::ir::{
     self, Access, Axis, BinaryOp, Element, QuadDirection, Scalar, Texture, TextureKind, Type,
 };
-use straightline_manifest::{Precision, REGION, Stage};
+use straightline_manifest::{REGION, Stage};
 
 /// WGSL.
 pub struct Wgsl<'a> {
@@ -258,7 +258,7 @@ impl Language for Wgsl<'_> {
     fn preamble(&self, header: &[String]) -> String {
         let r = self.resources;
         let mut out = String::new();
-        if r.options.precision == Precision::F16 {
+        if r.half {
             out += "enable f16;\n\n";
         }
         out += &header_comment(header);

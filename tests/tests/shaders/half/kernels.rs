@@ -77,8 +77,22 @@ pub fn compiled() -> Vec<Compiled> {
     all.map(|compiled| compiled.unwrap_or_else(|e| panic!("{e}"))).collect()
 }
 
+/// A kernel of the list by its name.
+pub fn named(name: &str) -> Kernel {
+    let all = kernels().into_iter().map(|(_, kernel)| kernel);
+    let mut found = all.filter(|kernel| kernel.name() == name);
+    found.next().unwrap_or_else(|| panic!("no kernel is called {name}"))
+}
+
+/// Largest difference of 99 % of a kernel's pixels from `f64`, in epsilons, where all is computed in half precision.
+pub fn cost(name: &str) -> f32 {
+    let cases = BUILTINS.iter().chain(&EXAMPLES);
+    let mut costs = cases.filter(|case| case.name == name).map(|case| case.cost);
+    costs.next().unwrap_or_else(|| panic!("no kernel is called {name}"))
+}
+
 /// Differences between two pictures, in epsilons, pixel by pixel, the smallest first.
-fn apart(a: &Frame<Vec4>, b: &Frame<Vec4>) -> Vec<f32> {
+pub fn apart(a: &Frame<Vec4>, b: &Frame<Vec4>) -> Vec<f32> {
     let pixel = |(a, b): (&Vec4, &Vec4)| {
         // Of what is larger than 1, in steps as large.
         let off = (*a - *b).abs() / b.abs().max(Vec4::ONE);
@@ -90,7 +104,7 @@ fn apart(a: &Frame<Vec4>, b: &Frame<Vec4>) -> Vec<f32> {
     apart
 }
 
-fn at(sorted: &[f32], share: f64) -> f32 {
+pub fn at(sorted: &[f32], share: f64) -> f32 {
     sorted[((sorted.len() - 1) as f64 * share) as usize]
 }
 

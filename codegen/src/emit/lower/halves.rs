@@ -1,0 +1,92 @@
+//! Values that the text holds in half precision, and conversions where they meet others.
+
+use crate::compiled::Compiled;
+use crate::emit::ast::{Expr, Ty};
+use straightline_evaluator::ir::{Graph, NodeId, Op};
+use straightline_evaluator::passes;
+
+/// Returns for each node whether its value is an `f16` in the text.
+///
+/// An operation is one of half precision if all its operands are, and nothing but [`Op::Half`] uses its result: rounding
+/// the `f32` result is then the same.
+pub fn half_values(compiled: &Compiled) -> Vec<bool> {
+    let graph = &compiled.graph;
+    let rounded = rounded_alone(graph);
+    let mut halves = vec![false; graph.nodes.len()];
+    for id in graph.node_ids() {
+        let node = graph.node(id);
+        let is_float = node.ty.is_float() && !node.ty.is_array();
+        halves[id.0 as usize] = match &node.op {
+            Op::Half => true,
+            op if !is_float || passes::keeps_operands(op) => false,
+            op => operands_are_half(graph, id, &halves) && (passes::is_move(op) || rounded[id.0 as usize]),
+        };
+    }
+    widen_vectors(graph, &mut halves);
+    halves
+}
+
+/// Vectors of halves that no operation of half precision uses: their components are converted, not they.
+fn widen_vectors(graph: &Graph, halves: &mut [bool]) {
+    let mut is_used = vec![false; graph.nodes.len()];
+    for id in graph.node_ids().rev() {
+        let node = graph.node(id);
+        if matches!(node.op, Op::Splat | Op::Compose) && !is_used[id.0 as usize] {
+            halves[id.0 as usize] = false;
+        }
+        let in_half = halves[id.0 as usize] || (!node.ty.is_float() && operands_are_half(graph, id, halves));
+        for arg in node.args.iter().filter(|_| in_half) {
+            is_used[arg.0 as usize] = true;
+        }
+    }
+}
+
+/// Returns whether every float among a node's operands is an `f16` or a constant, and not all are constants.
+pub fn operands_are_half(graph: &Graph, id: NodeId, halves: &[bool]) -> bool {
+    let floats = graph.node(id).args.iter().filter(|arg| graph.ty(**arg).is_float());
+    let (mut any, mut all) = (false, true);
+    for arg in floats {
+        let is_half = halves[arg.0 as usize];
+        any |= is_half;
+        all &= is_half || graph.constant_bits(*arg).is_some();
+    }
+    any && all
+}
+
+/// Returns for each node whether all its uses round it to half precision.
+fn rounded_alone(graph: &Graph) -> Vec<bool> {
+    let mut rounded = vec![true; graph.nodes.len()];
+    for id in graph.node_ids().filter(|id| graph.node(*id).op != Op::Half) {
+        for arg in &graph.node(id).args {
+            rounded[arg.0 as usize] = false;
+        }
+    }
+    for region in &graph.regions {
+        region.yielded_values().for_each(|id| rounded[id.0 as usize] = false);
+    }
+    rounded
+}
+
+/// Converts a float to half precision, and any other value not at all.
+pub fn to_half(mut expr: Expr) -> Expr {
+    if !expr.ty.is_float() || expr.ty.half {
+        return expr;
+    }
+    let ty = Ty { half: true, ..expr.ty };
+    if expr.as_constant().is_some() {
+        expr.ty = ty;
+        return expr;
+    }
+    expr.convert_to(ty)
+}
+
+/// Converts a float to full precision, and any other value not at all.
+pub fn to_full(expr: Expr) -> Expr {
+    match expr.ty.half {
+        true => {
+            let ty = expr.ty.to_full_precision();
+            expr.convert_to(ty)
+        }
+        false => expr,
+    }
+}
