@@ -217,10 +217,7 @@ mod tests {
         let all = Settings::new();
         let mut never_run: Vec<&str> = STAGES.iter().map(|stage| stage.name).collect();
         for (kernel, settings) in [
-            (
-                "sraa",
-                all.clone().math(Math::Fast).half(["weights".to_owned()]).block(2, 1),
-            ),
+            ("sraa", all.clone().math(Math::Fast).half(["weights"]).block(2, 1)),
             ("sraa", all.clone().share(Share::WORKGROUP)),
             ("sraa", all.clone().reads(ReadOrder::Gather)),
             ("quad_convolution", all.transport(Transport::Derivatives)),

@@ -10,6 +10,7 @@ pub mod frame;
 pub mod hard;
 pub mod isa;
 pub mod loops;
+pub mod precision;
 pub mod progress;
 pub mod quads;
 pub mod quality;

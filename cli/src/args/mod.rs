@@ -38,10 +38,10 @@ pub use straightline_isa::Gpu;
 #[cfg(feature = "study")]
 pub use study::{
     AllArgs, CommonArgs, CompilersArgs, ErrorArgs, FilmArgs, FrameArgs, Gpus, HardArgs, IsaArgs, LoopsArgs, MotionArgs,
-    Study, StudyArgs,
+    PrecisionArgs, Study, StudyArgs,
 };
 #[cfg(feature = "study")]
-pub use sweep::{MergeArgs, RecordsArgs, SweepArgs};
+pub use sweep::{CardArgs, MergeArgs, RecordsArgs, SweepArgs};
 pub use test::TestArgs;
 #[cfg(feature = "study")]
 pub use tune::TuneArgs;

@@ -1,6 +1,6 @@
 //! Arguments of `study` and `tune`.
 
-use super::{AdapterArgs, MergeArgs, RecordsArgs, SweepArgs, size};
+use super::{AdapterArgs, CardArgs, KernelArgs, MergeArgs, RecordsArgs, SweepArgs, size};
 use clap::{Args, Subcommand};
 use glam::{UVec2, Vec2};
 use std::collections::BTreeSet;
@@ -68,6 +68,8 @@ pub enum Study {
     Hard(HardArgs),
     /// Compile each kernel with GPU compilers, without a GPU, and report their figures
     Isa(IsaArgs),
+    /// Find values of a kernel that may be computed in half precision: the cheapest choice within a bound of the error
+    Precision(Box<PrecisionArgs>),
     /// Measure one kernel in every combination of options, unroll factors, stages, workgroups and blocks
     Sweep(Box<SweepArgs>),
     /// Join the records of all shards of a sweep
@@ -257,6 +259,31 @@ fn step(text: &str) -> Result<Vec2, String> {
         Some(step) if step.is_finite() && step.abs().max_element() <= 64.0 => Ok(step),
         _ => Err("two numbers from -64 to 64 are needed, as in 0.125,0.0625".to_owned()),
     }
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct PrecisionArgs {
+    #[command(flatten)]
+    pub kernel: KernelArgs,
+    /// GPU whose compiler states the cost, such as amd:navi21, or all of a vendor such as nvidia (see `straightline isa`);
+    /// may be given several times
+    #[arg(long, value_name = "VENDOR[:GPU]", required = true)]
+    pub isa: Vec<Gpus>,
+    /// Bound of the error: largest difference from f64 without the thousandth of the pixels that differ most; of colours
+    /// beyond 1 relative to them
+    #[arg(long, value_name = "NUMBER", default_value = "0.004", value_parser = bound)]
+    pub max_error: f64,
+    #[command(flatten)]
+    pub inputs: CardArgs,
+}
+
+/// Parses a bound of an error: a positive number.
+fn bound(text: &str) -> Result<f64, String> {
+    let bound = text
+        .parse::<f64>()
+        .ok()
+        .filter(|bound| *bound > 0.0 && bound.is_finite());
+    bound.ok_or_else(|| "a positive number is needed, such as 0.004".to_owned())
 }
 
 #[derive(Clone, Debug, Default, Args)]

@@ -8,6 +8,20 @@ use straightline_codegen::{ShaderSpec, Stage, Unroll, shorten};
 use straightline_study::record::Shard;
 use straightline_study::sweep::{Loops, parse_values, varied_knob};
 
+/// Inputs of a kernel that is measured: a test card for all that is not given.
+#[derive(Clone, Debug, Args)]
+pub struct CardArgs {
+    /// Picture for a texture, as for `run`; other textures show a test card; may be given several times
+    #[arg(long, value_name = "[NAME=]FILE[,FILE...]")]
+    pub input: Vec<String>,
+    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector; may be given several times
+    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
+    pub uniform: Vec<(String, String)>,
+    /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for 256 equal elements; may be given several times
+    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
+    pub buffer: Vec<(String, String)>,
+}
+
 #[derive(Clone, Debug, Args)]
 pub struct SweepArgs {
     /// Kernel to sweep: a built-in one (see `list`), FILE.rs, or FILE.rs::FUNCTION
@@ -59,15 +73,8 @@ pub struct SweepArgs {
     /// {AXIS} in its name stands for the value of an axis: blur-{radius}.wgsl.
     #[arg(long, value_name = "FILE.wgsl")]
     pub against: Vec<String>,
-    /// Picture for a texture, as for `run`; other textures show a test card; may be given several times
-    #[arg(long, value_name = "[NAME=]FILE[,FILE...]")]
-    pub input: Vec<String>,
-    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector; may be given several times
-    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
-    pub uniform: Vec<(String, String)>,
-    /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for 256 equal elements; may be given several times
-    #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
-    pub buffer: Vec<(String, String)>,
+    #[command(flatten)]
+    pub inputs: CardArgs,
     /// GPU to compile each variant for as well, such as amd:navi21, or all of a vendor such as nvidia (see `straightline
     /// isa`): instructions, registers, spills and, of AMD's, cycles; may be given several times
     #[arg(long, value_name = "VENDOR[:GPU]")]

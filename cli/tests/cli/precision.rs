@@ -122,3 +122,68 @@ fn kernels_run_in_half_precision() {
     );
     assert!(!Path::new(&out).exists());
 }
+
+/// A median only compares, so half precision is cheaper for it on any driver's word, and its error that of one rounding.
+#[test]
+fn the_cheapest_values_in_half_precision_are_found() {
+    let folder = scratch("half-search");
+    let out = folder.to_str().expect("a path of text");
+    let kernel = here("kernels/filters/median.rs");
+    let ask = |more: &[&str]| {
+        let fixed = ["study", "precision", &kernel, "--isa", "amd:navi21", "--out", out];
+        [&fixed[..], more]
+            .concat()
+            .iter()
+            .map(|word| (*word).to_owned())
+            .collect::<Vec<_>>()
+    };
+    let borrowed = |all: &[String]| -> String {
+        let words: Vec<&str> = all.iter().map(String::as_str).collect();
+        finishes(&words)
+    };
+    let table = borrowed(&ask(&[]));
+    assert!(table.contains("amd:navi21: --half values"), "{table}");
+    let record = std::fs::read_to_string(folder.join("precision.json")).expect("a record");
+    let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
+    let proposed = &record["proposals"][0]["lowered"];
+    assert!(
+        proposed["ratios"]["amd:navi21"]
+            .as_f64()
+            .is_some_and(|ratio| ratio < 0.95),
+        "{proposed}"
+    );
+    assert!(
+        proposed["error"]
+            .as_f64()
+            .is_some_and(|error| error > 0.0 && error < 1.0e-3),
+        "{proposed}"
+    );
+    // Half precision has 11 bits.
+    let strict = borrowed(&ask(&["--max-error", "1e-5"]));
+    assert!(strict.contains("amd:navi21: full precision"), "{strict}");
+    let none = folder.join("none.rs");
+    std::fs::write(
+        &none,
+        "pub fn none(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { color.load(pixel) }",
+    )
+    .expect("a kernel");
+    let none = none.to_str().expect("a path of text");
+    let refused = ["study", "precision", none, "--isa", "amd:navi21", "--out", out];
+    fails(
+        &refused,
+        1,
+        &["`none` computes no floats that could be in half precision"],
+    );
+    let unbounded = [
+        "study",
+        "precision",
+        "sraa",
+        "--isa",
+        "amd:navi21",
+        "--max-error",
+        "0",
+        "--out",
+        out,
+    ];
+    fails(&unbounded, 2, &["a positive number is needed, such as 0.004"]);
+}

@@ -76,10 +76,10 @@ knobs! {
             math(math: Math) |algebra| *algebra = math,
             example (Math::Fast);
         /// Variables, parameters and functions of the kernel whose values are computed in half precision, separated by
-        /// commas; `straightline precision` proposes some. For devices with half precision, and not for GLSL.
+        /// commas; `straightline study precision` proposes some. For devices with half precision, and not for GLSL.
         half: BTreeSet<String> = BTreeSet::new(), "half" ["NAMES"],
-            half(names: impl IntoIterator<Item = String>) |all| all.extend(names),
-            example (["weight".to_owned()]);
+            half(names: impl IntoIterator<Item = impl Into<String>>) |all| all.extend(names.into_iter().map(Into::into)),
+            example (["sum"]);
         /// Width and height of the pixel block that one compute invocation computes, 1 to 64 pixels in total; neighbours
         /// share reads. Quad kernels need whole quads.
         block: [u32; 2] = [1, 1], "block" ["WxH"],

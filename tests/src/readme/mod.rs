@@ -17,6 +17,7 @@ mod isa;
 mod loops;
 mod motion;
 mod planes;
+mod precision;
 mod presets;
 mod quads;
 mod quality;
@@ -79,10 +80,14 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "scenes" => Ok(quality::scenes(&read(files, 0)?)),
         "planes" => Ok(planes::scenes(&read(files, 0)?)),
         "even" => Ok(planes::even(&read(files, 0)?)),
-        "presets" => presets::presets(&read(files, 0)?, &read(files, 1)?),
-        "guide" => Ok(presets::scenes(&read(files, 0)?)),
-        "guide-sizes" => presets::sizes(&read_all(files)?),
-        "guide-goals" => presets::goals(&read(files, 0)?),
+        "presets" => {
+            let (timed, errors) = files.split_last().ok_or("presets need records")?;
+            presets::presets(&presets::joined(read_all(errors)?)?, &read(&[timed], 0)?)
+        }
+        "guide" => Ok(presets::scenes(&presets::joined(read_all(files)?)?)),
+        "guide-sizes" => presets::sizes(read_all(files)?),
+        "guide-goals" => presets::goals(&presets::joined(read_all(files)?)?),
+        "precision" => precision::proposals(&read_all(files)?),
         "demodulated" => Ok(quality::demodulated(&read(files, 0)?)),
         "motion" => Ok(motion::methods(&read(files, 0)?)),
         "temporal" => Ok(motion::temporal(&read(files, 0)?)),
@@ -116,7 +121,7 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "crates" => crates::needs(files),
         "sweep" => sweep::factors(&read(files, 0)?),
         _ => Err(format!(
-            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, guide-sizes, demodulated, motion, temporal, temporal-short, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, vendors, vendors-in-short, vendors-rivals, vendors-registers, forms, workgroups, registers, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
+            "there is no table `{name}`; there are frame, speed, loops, agreement, quality, methods, scenes, planes, even, presets, guide, guide-goals, guide-sizes, precision, demodulated, motion, temporal, temporal-short, gaps, goals, reached, hard, fast, gathers, gathers-times, isa, vendors, vendors-in-short, vendors-rivals, vendors-registers, forms, workgroups, registers, alive, rank, tiles, tiles-times, tune, pictures, samplings, radii, budget, table2, speedups, quads, encode, crates and sweep"
         )),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::goals::{Goal, goals_table};
 use super::quality::{by_samples, cell, found};
+use std::collections::BTreeMap;
 use straightline_study::record::{MethodErrors, QualityRecord, SceneErrors};
 use straightline_table::{Cell, Table};
 
@@ -52,6 +53,22 @@ pub fn presets(record: &QualityRecord, timed: &QualityRecord) -> Result<Table, S
         })
         .column("16", |(preset, ..)| mean_of(preset, "16", MethodErrors::megabytes))
         .finish())
+}
+
+/// Records of one size as one, with the scenes of all.
+pub fn joined(records: Vec<QualityRecord>) -> Result<QualityRecord, String> {
+    let mut records = records.into_iter();
+    let mut all = records.next().ok_or("there is no record")?;
+    for record in records {
+        if record.circumstances.size != all.circumstances.size {
+            return Err(format!(
+                "records of {:?} and {:?}",
+                all.circumstances.size, record.circumstances.size
+            ));
+        }
+        all.scenes.extend(record.scenes);
+    }
+    Ok(all)
 }
 
 /// Every scene: PSNR and FLIP of each preset beside supersampling.
@@ -106,10 +123,14 @@ pub fn goals(record: &QualityRecord) -> Result<Table, String> {
 }
 
 /// Records of several sizes: the guide below supersampling, and the least gain of presets over the paper's filter.
-pub fn sizes(records: &[QualityRecord]) -> Result<Table, String> {
-    let mut rows = Vec::new();
+pub fn sizes(records: Vec<QualityRecord>) -> Result<Table, String> {
+    let mut by_size: BTreeMap<[u32; 2], Vec<QualityRecord>> = BTreeMap::new();
     for record in records {
-        let [width, height] = record.circumstances.size;
+        by_size.entry(record.circumstances.size).or_default().push(record);
+    }
+    let mut rows = Vec::new();
+    for ([width, height], records) in by_size {
+        let record = &joined(records)?;
         let mut cells = Vec::new();
         for samples in ["4", "16"] {
             let (guided, paper) = (below(record, "guided", samples)?, below(record, "paper", samples)?);

@@ -23,11 +23,6 @@ const TEXT: &str = "
         vec4(weight * a.y, square, step, 1.0)
     }";
 
-fn names(all: &[&str]) -> impl Iterator<Item = String> + use<> {
-    let all: Vec<String> = all.iter().map(|name| (*name).to_owned()).collect();
-    all.into_iter()
-}
-
 /// Every name of a kernel that can be lowered.
 fn all_names(kernel: &Kernel) -> BTreeSet<String> {
     let whole = kernel.compile(&Settings::default()).unwrap_or_else(|e| panic!("{e}"));
@@ -37,7 +32,7 @@ fn all_names(kernel: &Kernel) -> BTreeSet<String> {
 /// The definition, by the crate `half`, and the driver, on numbers that half precision holds.
 #[test]
 fn operands_and_results_of_chosen_values_are_rounded() {
-    let compiled = compile_text(TEXT, &Settings::new().half(names(&["step", "square"])));
+    let compiled = compile_text(TEXT, &Settings::new().half(["step", "square"]));
     let gpu = capable_bench();
     let inputs = held(test_inputs(&compiled.graph, SIZE));
     let found = interpret_kernel::<f32>(&compiled, &inputs, false).expect("it runs");
@@ -100,7 +95,7 @@ fn every_kernel_computes_what_the_interpreter_does() {
 #[test]
 fn in_f64_nothing_is_rounded() {
     let whole = compile_text(TEXT, &Settings::default());
-    let chosen = compile_text(TEXT, &Settings::new().half(names(&["step", "square", "weight"])));
+    let chosen = compile_text(TEXT, &Settings::new().half(["step", "square", "weight"]));
     let inputs = test_inputs(&whole.graph, SIZE);
     let [whole, chosen] =
         [&whole, &chosen].map(|compiled| interpret_kernel::<f64>(compiled, &inputs, false).expect("it runs"));
@@ -139,7 +134,7 @@ fn every_kernel_is_emitted_in_every_language_but_glsl() {
 #[test]
 fn what_cannot_be_chosen_is_refused() {
     let refused = |name: &str| {
-        let compiled = Kernel::from_text("test.rs", TEXT, "k").compile(&Settings::new().half(names(&[name])));
+        let compiled = Kernel::from_text("test.rs", TEXT, "k").compile(&Settings::new().half([name]));
         compiled.map(drop).expect_err("it is refused").to_string()
     };
     let text = refused("squares");
@@ -147,7 +142,7 @@ fn what_cannot_be_chosen_is_refused() {
     assert!(text.contains("did you mean `square`?"), "{text}");
     let text = refused("nothing_like_it");
     assert!(text.contains("it computes weight, result, step, square"), "{text}");
-    let compiled = compile_text(TEXT, &Settings::new().half(names(&["step"])));
+    let compiled = compile_text(TEXT, &Settings::new().half(["step"]));
     let glsl = compiled.emit(&EmitOptions::new().targets([Target::Glsl450]));
     let text = glsl.map(drop).expect_err("it is refused").to_string();
     assert!(text.contains("leave `half` out"), "{text}");

@@ -1,6 +1,6 @@
 //! Inputs of a sweep's variants: files of the command line, and the test card for everything else.
 
-use crate::args::{CommonArgs, Executor, GivenArgs, SweepArgs};
+use crate::args::{CardArgs, CommonArgs, Executor, GivenArgs};
 use crate::commands::run::inputs;
 use crate::failure::Failure;
 use glam::UVec2;
@@ -29,14 +29,14 @@ fn input_names(compiled: &Compiled) -> impl Iterator<Item = &String> {
 }
 
 impl Given {
-    /// Creates the inputs for a sweep whose variants read the inputs of `compiled`.
-    pub fn new(common: &CommonArgs, args: &SweepArgs, compiled: &[Compiled]) -> Given {
+    /// Creates the inputs of variants that read the inputs of `compiled`, at a size unless pictures have their own.
+    pub fn new(common: &CommonArgs, inputs: &CardArgs, size: UVec2, compiled: &[Compiled]) -> Given {
         let args = GivenArgs {
-            input: args.input.clone(),
-            uniform: args.uniform.clone(),
-            buffer: args.buffer.clone(),
-            size: match args.input.is_empty() {
-                true => Some(common.picture_size()),
+            input: inputs.input.clone(),
+            uniform: inputs.uniform.clone(),
+            buffer: inputs.buffer.clone(),
+            size: match inputs.input.is_empty() {
+                true => Some(size),
                 false => common.size,
             },
             executor: Executor::Gpu,
@@ -45,7 +45,7 @@ impl Given {
         Given {
             args,
             names: compiled.iter().flat_map(input_names).cloned().collect(),
-            size: common.picture_size(),
+            size,
         }
     }
 

@@ -1,7 +1,7 @@
 //! `study sweep`: one kernel in every combination of options and forms; and the commands that read such records.
 
 mod environment;
-mod given;
+pub mod given;
 mod print;
 
 use super::isa::start_compiler;
@@ -45,7 +45,7 @@ pub fn measure_sweep(common: &CommonArgs, args: &SweepArgs, progress: &mut Progr
         shard: args.shard,
     };
     let compiled = first_of_groups(&sweep)?;
-    let given = Given::new(common, args, &compiled);
+    let given = Given::new(common, &args.inputs, common.picture_size(), &compiled);
     let size = given.picture_size(&compiled[0])?;
     let gpu = Gpu::require(&common.adapter)?;
     let give = |compiled: &Compiled| given.variant_inputs(compiled).map_err(to_sweep_error);
