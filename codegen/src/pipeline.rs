@@ -5,6 +5,7 @@ use crate::compiled::{Compiled, Places, internal_error};
 use crate::emit;
 use crate::spec::Settings;
 use crate::stages::{STAGES, Work};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File};
 use straightline_evaluator::eval::{self, Evaluated};
@@ -57,6 +58,11 @@ pub fn compile(
         invocation,
     )?;
     let graph = std::mem::take(&mut evaluated.graph);
+    let half = library
+        .functions
+        .values()
+        .flat_map(|function| function.half.iter().cloned())
+        .collect();
     let mut pipeline = Pipeline {
         kernel,
         settings,
@@ -70,8 +76,9 @@ pub fn compile(
         sharing,
         unshared,
         gathered,
+        half,
         ..
-    } = pipeline.run_stages(graph)?;
+    } = pipeline.run_stages(graph, half)?;
     let schedule = passes::schedule_graph(&graph, settings.reads);
     // Most oversized kernels are rejected here, before their text is generated.
     pipeline.check_budget(emit::statements_at_least(&graph, &schedule))?;
@@ -93,7 +100,7 @@ pub fn compile(
         sharing,
         unshared,
         gathered,
-        half: settings.half.clone(),
+        half,
         quad,
         limits: settings.limits(),
         work: meter.work(),
@@ -125,9 +132,9 @@ struct Pipeline<'s, 'o> {
 
 impl<'s> Pipeline<'s, '_> {
     /// Runs every stage that applies.
-    fn run_stages(&mut self, graph: Graph) -> Result<Work<'s>, Errors> {
+    fn run_stages(&mut self, graph: Graph, half: BTreeSet<String>) -> Result<Work<'s>, Errors> {
         self.check("eval", &graph)?;
-        let mut work = Work::new(&self.kernel.name, self.settings, graph);
+        let mut work = Work::new(&self.kernel.name, self.settings, half, graph);
         for stage in STAGES {
             if !(stage.applies)(&work) {
                 continue;

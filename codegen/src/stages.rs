@@ -7,6 +7,7 @@ mod sharing;
 
 use crate::spec::Settings;
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Span};
 use straightline_evaluator::ir::{Graph, Invocation};
@@ -38,6 +39,8 @@ pub enum Made {
 pub struct Work<'s> {
     pub kernel: &'s str,
     pub settings: &'s Settings,
+    /// Names of the values in half precision: first those of the kernel's attributes, after the stage all of them.
+    pub half: BTreeSet<String>,
     pub graph: Graph,
     /// Transport of quad swaps: the requested one, or the one that blocks of quads imply.
     pub transport: Option<Transport>,
@@ -52,8 +55,9 @@ pub struct Work<'s> {
 }
 
 impl<'s> Work<'s> {
-    pub fn new(kernel: &'s str, settings: &'s Settings, graph: Graph) -> Self {
+    pub fn new(kernel: &'s str, settings: &'s Settings, half: BTreeSet<String>, graph: Graph) -> Self {
         Work {
+            half,
             kernel,
             settings,
             graph,
@@ -145,7 +149,7 @@ pub const STAGES: &[Stage] = &[
         name: "half",
         reason: "After fast, which must see constants as they are written; before lanes and pixels are put into one \
                  invocation, so that every form has the same roundings.",
-        applies: |work| !work.settings.half.is_empty(),
+        applies: |work| !work.settings.half.is_empty() || !work.half.is_empty(),
         run: half::lower_to_half,
     },
     Stage {

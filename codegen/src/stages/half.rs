@@ -1,6 +1,7 @@
-//! Half precision for the values that the setting `half` names.
+//! Half precision for the values that the setting `half` or the kernel's attributes name.
 
 use super::{Made, Refusal, Work};
+use std::collections::BTreeSet;
 use straightline_evaluator::{passes, suggest_name};
 
 /// Lowers the named values to half precision.
@@ -14,5 +15,14 @@ pub fn lower_to_half(work: &mut Work<'_>) -> Result<Made, Refusal> {
         );
         return Err(Refusal::new(what, suggest_name(unknown, &known, "it computes")));
     }
-    Ok(Made::Kernel(passes::lower_to_half(&work.graph, &work.settings.half)))
+    // The kernel does not call every function that has an attribute.
+    let by_attributes = known.into_iter().filter(|name| is_among(name, &work.half));
+    work.half = by_attributes.chain(work.settings.half.iter().cloned()).collect();
+    Ok(Made::Kernel(passes::lower_to_half(&work.graph, &work.half)))
+}
+
+/// Returns whether a value has one of some names, or is a part of what has it: `name_field`.
+fn is_among(value: &str, names: &BTreeSet<String>) -> bool {
+    let mut ends = value.match_indices('_').map(|(end, _)| end).chain([value.len()]);
+    ends.any(|end| names.contains(&value[..end]))
 }

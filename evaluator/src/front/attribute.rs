@@ -97,7 +97,7 @@ impl Lower {
             match &meta {
                 syn::Meta::Path(path) if path.is_ident("branch") => found = Some(Branches::Keep),
                 syn::Meta::Path(path) if path.is_ident("select") => found = Some(Branches::Select),
-                meta if is_exact(meta) => {}
+                meta if is_exact(meta) || is_half(meta) => {}
                 other => {
                     let text = as_written(other);
                     self.bad_attribute(
@@ -118,6 +118,14 @@ impl Lower {
         let exact = self.hidden_attributes(attrs).iter().any(is_exact);
         self.errors.truncate(noted);
         exact
+    }
+
+    /// `half` before a function or a `let`: its values are computed in half precision.
+    pub fn half_attribute(&mut self, attrs: &[syn::Attribute]) -> bool {
+        let noted = self.errors.len();
+        let half = self.hidden_attributes(attrs).iter().any(is_half);
+        self.errors.truncate(noted);
+        half
     }
 
     /// The attributes inside `cfg_attr(false, ...)`. Others are rustc's.
@@ -153,6 +161,10 @@ impl Lower {
                 .help(help),
         );
     }
+}
+
+fn is_half(meta: &syn::Meta) -> bool {
+    matches!(meta, syn::Meta::Path(path) if path.is_ident("half"))
 }
 
 fn is_exact(meta: &syn::Meta) -> bool {

@@ -1,5 +1,6 @@
 //! Blocks: their statements, and the constants that hold in all of one.
 
+use super::choice::collect_bindings;
 use super::expr::Lower;
 use super::mentioned_in;
 use super::tree::{Block, Const, Expr, ExprKind, Pattern, Statement, Type};
@@ -66,6 +67,11 @@ impl Lower {
             syn::Pat::Type(typed) => (self.lower_pattern(&typed.pat), Some(self.lower_type(&typed.ty))),
             other => (self.lower_pattern(other), None),
         };
+        if self.half_attribute(&local.attrs) {
+            let mut names = Vec::new();
+            collect_bindings(&pattern, &mut names);
+            self.half.extend(names.iter().map(|(name, ..)| name.to_string()));
+        }
         if let Some(init) = &local.init
             && let Some((_, other)) = &init.diverge
         {

@@ -14,12 +14,14 @@ use syn::spanned::Spanned;
 pub enum Carrier {
     /// `for`, `while` or `loop`: `unroll(..)`, `bound(..)`, `exact`.
     Loop,
-    /// `if`, `match`, or a `let` that takes its value: `branch`, `select`, `exact`.
+    /// `if` or `match`: `branch`, `select`, `exact`.
     Branch,
-    /// A function: `unroll(..)`, which is said of all loops in it, and `exact`.
+    /// A function: `unroll(..)`, which is said of all loops in it, `exact` and `half`.
     Function,
-    /// Another `let`, or a block: `exact`.
+    /// A block: `exact`.
     Statement,
+    /// `let`: `exact`, `half`, and with the value of an `if` or `match` (true) `branch` and `select`.
+    Let(bool),
     /// Anything else.
     Other,
 }
@@ -29,8 +31,10 @@ impl Carrier {
     /// accept are checked when these are lowered.
     fn accepts_attribute(self, attribute: &str) -> bool {
         match self {
-            Carrier::Loop | Carrier::Branch => true,
-            Carrier::Function => ["unroll", EXACT].contains(&attribute),
+            Carrier::Loop | Carrier::Branch => attribute != HALF,
+            Carrier::Let(true) => true,
+            Carrier::Let(false) => [EXACT, HALF].contains(&attribute),
+            Carrier::Function => ["unroll", EXACT, HALF].contains(&attribute),
             Carrier::Statement => attribute == EXACT,
             Carrier::Other => false,
         }
@@ -38,9 +42,11 @@ impl Carrier {
 }
 
 /// The generator's own attributes.
-const OWN: [&str; 5] = ["unroll", "bound", "branch", "select", EXACT];
+const OWN: [&str; 6] = ["unroll", "bound", "branch", "select", EXACT, HALF];
 
 const EXACT: &str = "exact";
+
+const HALF: &str = "half";
 
 /// Attributes that neither remove nor change the code after them.
 const INERT: [&str; 26] = [
@@ -163,6 +169,7 @@ impl Lower {
                             "a function, a statement or a block",
                             "put it right before a `fn`, a `let`, a block, an `if`, a `match` or a loop",
                         ),
+                        HALF => ("a function or a `let`", "put it right before a `fn` or a `let`"),
                         _ => (
                             "an `if`",
                             "put it right before an `if`, or before the `let` that takes its value",

@@ -202,7 +202,7 @@ fn make_arm(pattern: Pattern, guard: Option<Expr>, body: Expr) -> Arm {
 }
 
 /// The names that a pattern binds, each once.
-fn collect_bindings(pattern: &Pattern, out: &mut Vec<(Name, bool, Span)>) {
+pub fn collect_bindings(pattern: &Pattern, out: &mut Vec<(Name, bool, Span)>) {
     let mut name = |name: &Name, mutable: bool, at: Span| {
         if out.iter().all(|(known, ..)| known != name) {
             out.push((name.clone(), mutable, at));

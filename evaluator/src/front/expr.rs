@@ -42,6 +42,8 @@ pub struct Lower {
     pub targets: Vec<BreakTarget>,
     /// Type parameters that are called, with their types.
     pub functions: HashMap<String, Type>,
+    /// Names of the values that attributes put into half precision.
+    pub half: Vec<String>,
     /// Everything that was found wrong.
     pub errors: Vec<Diagnostic>,
 }
@@ -61,6 +63,7 @@ impl Lower {
             depth: 0,
             targets: Vec::new(),
             functions: HashMap::new(),
+            half: Vec::new(),
             errors: Vec::new(),
         }
     }

@@ -326,8 +326,12 @@ impl Items {
         let span = lower.token_span(sig.ident.span());
         let mut body = super::parts::prepend_statements(parts, lower.lower_block(body), span);
         body.exact = lower.exact_attribute(attrs);
+        if lower.half_attribute(attrs) {
+            lower.half.push(sig.ident.to_string());
+        }
         let function = Function {
             docs: doc_text(attrs),
+            half: std::mem::take(&mut lower.half),
             unroll: lower.unroll_of_function(attrs),
             generics,
             of: of.map(|of| of.ty.clone()),

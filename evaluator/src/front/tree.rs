@@ -412,6 +412,8 @@ pub struct Function {
     pub docs: String,
     /// Policy for its loops and those of the functions that it calls, unless they have their own.
     pub unroll: Option<Unroll>,
+    /// Names of its values that attributes put into half precision, its own among them.
+    pub half: Vec<String>,
     /// Generic parameters in order, those of its `impl` last.
     pub generics: Vec<Generic>,
     /// Type that its `impl` is of, with its arguments.

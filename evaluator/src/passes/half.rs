@@ -27,7 +27,8 @@ pub fn lower_to_half(graph: &Graph, names: &BTreeSet<String>) -> Graph {
 pub fn half_names(graph: &Graph) -> BTreeSet<String> {
     let named = |id: NodeId| {
         let name = name_of(graph, id)?;
-        (is_float(graph, id) && can_be_half(&graph.node(id).op)).then(|| name.to_owned())
+        let is_lowered = can_be_half(&graph.node(id).op) || chosen_value(graph, id).is_some();
+        (is_float(graph, id) && is_lowered).then(|| name.to_owned())
     };
     graph.node_ids().filter_map(named).collect()
 }
@@ -40,6 +41,18 @@ fn name_of(graph: &Graph, id: NodeId) -> Option<&str> {
 fn is_float(graph: &Graph, id: NodeId) -> bool {
     let ty = graph.ty(id);
     ty.is_float() && !ty.is_array()
+}
+
+/// The values that a branch chooses between for one of its results.
+fn chosen_value(graph: &Graph, id: NodeId) -> Option<[NodeId; 2]> {
+    let node = graph.node(id);
+    let (Op::Result(k), [owner]) = (&node.op, &node.args[..]) else {
+        return None;
+    };
+    match graph.node(*owner).op {
+        Op::If(then, otherwise) => Some([then, otherwise].map(|region| graph.region(region).results[*k as usize])),
+        _ => None,
+    }
 }
 
 /// Returns whether an operation may have a result in half precision.
@@ -89,10 +102,12 @@ fn lowered_nodes(graph: &Graph, chosen: &dyn Fn(&str) -> bool) -> Vec<bool> {
     // Users so far: none, or whether all of them are lowered.
     let mut users: Vec<Option<bool>> = vec![None; graph.nodes.len()];
     let mut exact = vec![false; graph.nodes.len()];
-    for region in &graph.regions {
-        region
-            .yielded_values()
-            .for_each(|id| users[id.0 as usize] = Some(false));
+    graph.outputs().iter().for_each(|id| users[id.0 as usize] = Some(false));
+    for id in graph.node_ids() {
+        if let Op::Loop(region) = graph.node(id).op {
+            let yielded = graph.region(region).yielded_values();
+            yielded.for_each(|id| users[id.0 as usize] = Some(false));
+        }
     }
     for id in graph.node_ids().rev() {
         let (k, node) = (id.0 as usize, graph.node(id));
@@ -101,6 +116,10 @@ fn lowered_nodes(graph: &Graph, chosen: &dyn Fn(&str) -> bool) -> Vec<bool> {
             None => users[k] == Some(true),
         };
         lowered[k] = belongs && can_be_half(&node.op) && !exact[k];
+        for value in chosen_value(graph, id).into_iter().flatten() {
+            let all = users[value.0 as usize].unwrap_or(true);
+            users[value.0 as usize] = Some(all && belongs);
+        }
         let whole = !lowered[k] || keeps_operands(&node.op);
         for arg in &node.args {
             let all = users[arg.0 as usize].unwrap_or(true);

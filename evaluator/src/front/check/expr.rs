@@ -296,13 +296,8 @@ impl Check {
     }
 
     fn check_let(&mut self, local: &mut syn::Local) -> bool {
-        let carrier = match &local.init {
-            Some(init) => match attribute_carrier(&init.expr) {
-                Carrier::Branch => Carrier::Branch,
-                _ => Carrier::Statement,
-            },
-            None => Carrier::Statement,
-        };
+        let init = local.init.as_ref().map(|init| attribute_carrier(&init.expr));
+        let carrier = Carrier::Let(init == Some(Carrier::Branch));
         if !self.lower.keeps_by_cfg(&mut local.attrs, carrier) {
             return false;
         }

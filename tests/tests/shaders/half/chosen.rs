@@ -91,6 +91,87 @@ fn every_kernel_computes_what_the_interpreter_does() {
     }
 }
 
+/// What a search proposes can be written into the source: an attribute means what the setting does.
+#[test]
+fn attributes_choose_like_the_setting() {
+    let marked = |text: &str, line: &str| {
+        let line = &format!("{line}\n");
+        assert!(text.contains(line.as_str()), "{text}");
+        text.replace(line.as_str(), &format!("#[cfg_attr(false, half)] {line}"))
+    };
+    let emitted = |compiled: &Compiled| {
+        let emitted = compiled
+            .emit(&EmitOptions::new().strip_comments(true))
+            .unwrap_or_else(|e| panic!("{e}"));
+        String::from_utf8_lossy(&emitted.files[&Target::Wgsl]).into_owned()
+    };
+    let chosen = compile_text(TEXT, &Settings::new().half(["step", "square"]));
+    let text = marked(TEXT, "let step = a.x - b.x;");
+    let whole = marked(&text, "let square = (step * step + 0.1) / b.y;");
+    let by_attributes = compile_text(&whole, &Settings::default());
+    assert_eq!(emitted(&chosen), emitted(&by_attributes));
+    assert_eq!(by_attributes.half, chosen.half);
+    // An attribute and the setting add up.
+    let both = compile_text(&text, &Settings::new().half(["square"]));
+    assert_eq!(emitted(&chosen), emitted(&both));
+    // A part of a structure, and the result of a function.
+    let text = "
+        #[derive(Clone, Copy)]
+        pub struct Light { pub near: f32, pub far: f32 }
+        #[cfg_attr(false, half)]
+        fn luma(c: Vec4) -> f32 { c.x * 0.2 + c.y * 0.7 + c.z * 0.1 }
+        #[cfg_attr(false, half)]
+        fn never_called(x: f32) -> f32 { x * x }
+        pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+            let c = color.load(pixel);
+            #[cfg_attr(false, half)]
+            let light = Light { near: c.x * 3.0, far: c.y / 7.0 };
+            vec4(luma(c), light.near - 0.3, light.far + 0.1, 1.0)
+        }";
+    let compiled = compile_text(text, &Settings::default());
+    let names: Vec<&str> = compiled.half.iter().map(String::as_str).collect();
+    assert_eq!(names, ["light_far", "light_near", "luma"]);
+}
+
+#[test]
+fn attributes_elsewhere_are_refused() {
+    for (text, expected) in [
+        (
+            "#[cfg_attr(false, half)] { out += v; }",
+            "`half` is an attribute of a function or a `let`",
+        ),
+        (
+            "#[cfg_attr(false, half)] if v > 0.5 { out += v; }",
+            "`half` is an attribute of a function or a `let`",
+        ),
+        (
+            "#[cfg_attr(false, half)] for _ in 0..2 { out += v; }",
+            "`half` is an attribute of a function or a `let`",
+        ),
+        ("#[half] let w = v; out += w;", "the attribute `half` as rustc sees it"),
+    ] {
+        let text = format!(
+            "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {{
+                let v = color.load(pixel).x;
+                let mut out = v;
+                {text}
+                Vec4::splat(out)
+            }}"
+        );
+        let refused = Kernel::from_text("test.rs", &text, "k").compile(&Settings::default());
+        let error = refused.map(drop).expect_err(&text).to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    let choosing = "pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+        let v = color.load(pixel).x;
+        #[cfg_attr(false, half, branch)]
+        let w = if v > 0.5 { v * 2.0 } else { v * v };
+        Vec4::splat(w)
+    }";
+    let compiled = compile_text(choosing, &Settings::default());
+    assert_eq!(compiled.half.iter().collect::<Vec<_>>(), ["w"]);
+}
+
 /// `f64` is the truth that errors are taken of, and so is that of a kernel with chosen values.
 #[test]
 fn in_f64_nothing_is_rounded() {
