@@ -2,7 +2,7 @@
 
 use crate::compiled::Compiled;
 use crate::emit::ast::{Expr, Ty};
-use straightline_evaluator::ir::{Graph, NodeId, Op};
+use straightline_evaluator::ir::{Graph, NodeId, Op, Real};
 use straightline_evaluator::passes;
 
 /// Returns for each node whether its value is an `f16` in the text.
@@ -41,16 +41,25 @@ fn widen_vectors(graph: &Graph, halves: &mut [bool]) {
     }
 }
 
-/// Returns whether every float among a node's operands is an `f16` or a constant, and not all are constants.
+/// Returns whether every float among a node's operands is an `f16` or a constant that one holds, and not all are constants.
 pub fn operands_are_half(graph: &Graph, id: NodeId, halves: &[bool]) -> bool {
     let floats = graph.node(id).args.iter().filter(|arg| graph.ty(**arg).is_float());
     let (mut any, mut all) = (false, true);
     for arg in floats {
         let is_half = halves[arg.0 as usize];
         any |= is_half;
-        all &= is_half || graph.constant_bits(*arg).is_some();
+        all &= is_half || is_held(graph, *arg);
     }
     any && all
+}
+
+/// Returns whether a node is a constant that half precision holds exactly.
+fn is_held(graph: &Graph, id: NodeId) -> bool {
+    let lanes = usize::from(graph.ty(id).component_count());
+    let held = |bits: &u32| f32::from_bits(*bits).to_half().to_bits() == *bits;
+    graph
+        .constant_bits(id)
+        .is_some_and(|bits| bits[..lanes].iter().all(held))
 }
 
 /// Returns for each node whether all its uses round it to half precision.
