@@ -19,7 +19,7 @@ const TEXT: &str = "
         let (a, b) = (color.load(pixel), color.load(pixel + ivec2(1, 0)));
         let step = a.x - b.x;
         let square = (step * step + 0.1) / b.y;
-        let weight = square.max(a.z).max(0.3);
+        let weight = square.max(0.3).max(a.z);
         vec4(weight * a.y, square, step, 1.0)
     }";
 
@@ -44,7 +44,7 @@ fn operands_and_results_of_chosen_values_are_rounded() {
         let step = f16::from_f32(a.x) - f16::from_f32(b.x);
         let square = (step * step + f16::from_f32(0.1)) / f16::from_f32(b.y);
         let [step, square] = [step.to_f32(), square.to_f32()];
-        let expected = vec4(square.max(a.z).max(0.3) * a.y, square, step, 1.0);
+        let expected = vec4(square.max(0.3).max(a.z) * a.y, square, step, 1.0);
         assert_eq!(
             found.to_array().map(f32::to_bits),
             expected.to_array().map(f32::to_bits),
