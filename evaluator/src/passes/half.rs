@@ -60,7 +60,7 @@ fn can_be_half(op: &Op) -> bool {
     is_move(op) || matches!(op, Op::Unary(_) | Op::Binary(_) | Op::Dot | Op::Cross | Op::Convert)
 }
 
-/// Returns whether every component of an operation's result is one of its arguments, or that without its sign.
+/// Returns whether every component of an operation's result is one of its arguments, but for the sign.
 pub fn is_move(op: &Op) -> bool {
     matches!(
         op,

@@ -91,7 +91,7 @@ fn every_kernel_computes_what_the_interpreter_does() {
     }
 }
 
-/// What a search proposes can be written into the source: an attribute means what the setting does.
+/// An attribute means what the setting does: a proposal of the search can be written into the source.
 #[test]
 fn attributes_choose_like_the_setting() {
     let marked = |text: &str, line: &str| {
