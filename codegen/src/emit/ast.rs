@@ -256,6 +256,30 @@ impl Expr {
         Expr::new(Op::Convert { fits: true }, vec![self], ty)
     }
 
+    /// Converts a float to half precision, and any other value not at all.
+    pub fn into_half(mut self) -> Expr {
+        if !self.ty.is_float() || self.ty.half {
+            return self;
+        }
+        let ty = Ty { half: true, ..self.ty };
+        if self.as_constant().is_some() {
+            self.ty = ty;
+            return self;
+        }
+        self.convert_to(ty)
+    }
+
+    /// Converts a float to full precision, and any other value not at all.
+    pub fn into_full(self) -> Expr {
+        match self.ty.half {
+            true => {
+                let ty = self.ty.to_full_precision();
+                self.convert_to(ty)
+            }
+            false => self,
+        }
+    }
+
     /// Reinterprets the bits as another type.
     pub fn bits_as(self, ty: impl Into<Ty>) -> Expr {
         Expr::new(Op::Ir(ir::Op::Bitcast), vec![self], ty)

@@ -80,11 +80,24 @@ pub fn search_precision(
         return Err(PrecisionError::NoFloats(whole.kernel));
     }
     let bright = brightened(question.inputs);
+    let exact = interpret_kernel::<f64>(&whole, question.inputs, false)?.texels;
+    let largest = |texel: &[f64; 4]| {
+        texel
+            .iter()
+            .filter(|x| x.is_finite())
+            .fold(1.0, |most: f64, x| most.max(x.abs()))
+    };
+    let scales: Vec<f64> = exact.iter().map(largest).collect();
     let gpus: Vec<String> = compilers.iter().map(|compiler| compiler.gpu().to_string()).collect();
     progress.begin("choices", names.len() * 4);
-    let mut judge = Judge {
+    let mut judge = KernelJudge {
         question,
-        exact: interpret_kernel::<f64>(&whole, question.inputs, false)?.texels,
+        exact: exact
+            .iter()
+            .zip(&scales)
+            .map(|(texel, scale)| Some(texel.map(|x| x / scale)))
+            .collect(),
+        scales,
         finite: finite_pixels(&whole, &bright)?,
         bright,
         compilers,
@@ -116,22 +129,27 @@ fn finite_pixels(compiled: &Compiled, inputs: &Inputs) -> Result<Vec<bool>, Exec
         .collect())
 }
 
+/// Values by the names of GPUs.
+type ByGpu<T> = BTreeMap<String, T>;
+
 /// Judge of choices, which judges each once.
-struct Judge<'a> {
+struct KernelJudge<'a> {
     question: &'a Question<'a>,
-    /// Pixels in `f64`.
-    exact: Vec<[f64; 4]>,
+    /// Pixels in `f64`, divided by `scales`.
+    exact: Vec<Option<[f64; 4]>>,
+    /// By pixel its largest component, or 1: larger differences are relative.
+    scales: Vec<f64>,
     bright: Inputs,
     /// By pixel of the bright pictures, whether it is finite in full precision.
     finite: Vec<bool>,
     compilers: &'a mut [Compiler],
-    /// Figures in full precision.
-    whole: BTreeMap<String, MachineFigures>,
+    /// Costs in full precision, by GPU.
+    whole: ByGpu<u64>,
     known: BTreeMap<Choice, Lowered>,
     progress: &'a mut dyn Progress,
 }
 
-impl search::Judge for Judge<'_> {
+impl search::Judge for KernelJudge<'_> {
     fn judge(&mut self, half: &Choice) -> Result<Lowered, PrecisionError> {
         if let Some(known) = self.known.get(half) {
             return Ok(known.clone());
@@ -145,13 +163,17 @@ impl search::Judge for Judge<'_> {
             false => settings.half.extend(half.iter().cloned()),
         }
         let compiled = self.question.kernel.compile(&settings).map_err(ExecuteError::from)?;
-        let machine = self.ask(&compiled)?;
+        let (machine, costs) = self.ask(&compiled)?;
         if half.is_empty() {
-            self.whole.clone_from(&machine);
+            self.whole.clone_from(&costs);
         }
+        let ratio = |(gpu, cost): (String, u64)| {
+            let whole = self.whole.get(&gpu)?;
+            Some((gpu, cost as f64 / (*whole).max(1) as f64))
+        };
         let lowered = Lowered {
             error: self.error_of(&compiled)?,
-            ratios: self.ratios(&machine),
+            ratios: costs.into_iter().filter_map(ratio).collect(),
             half: settings.half,
             machine,
         };
@@ -161,7 +183,7 @@ impl search::Judge for Judge<'_> {
     }
 }
 
-impl Judge<'_> {
+impl KernelJudge<'_> {
     /// Error of a kernel, unless it is not finite somewhere.
     fn error_of(&self, compiled: &Compiled) -> Result<Option<f64>, ExecuteError> {
         let finite = finite_pixels(compiled, &self.bright)?;
@@ -169,20 +191,14 @@ impl Judge<'_> {
             return Ok(None);
         }
         let found = interpret_kernel::<f32>(compiled, self.question.inputs, false)?;
-        let mut pixels = Vec::with_capacity(found.texels.len());
-        let mut exact = Vec::with_capacity(found.texels.len());
-        for (own, truth) in found.texels.iter().zip(&self.exact) {
-            let scale = truth
-                .iter()
-                .fold(1.0, |most: f64, x| if x.is_finite() { most.max(x.abs()) } else { most });
-            pixels.push(Vec4::from_array(own.map(|x| (f64::from(x) / scale) as f32)));
-            exact.push(Some(truth.map(|x| x / scale)));
-        }
-        let (_, error) = largest_differences(&pixels, &exact);
+        let scaled = found.texels.iter().zip(&self.scales);
+        let scaled = scaled.map(|(texel, scale)| Vec4::from_array(texel.map(|x| (f64::from(x) / scale) as f32)));
+        let (_, error) = largest_differences(&scaled.collect::<Vec<_>>(), &self.exact);
         Ok((error < f64::MAX).then_some(error))
     }
 
-    fn ask(&mut self, compiled: &Compiled) -> Result<BTreeMap<String, MachineFigures>, PrecisionError> {
+    /// Figures and costs of a kernel, by GPU.
+    fn ask(&mut self, compiled: &Compiled) -> Result<(ByGpu<MachineFigures>, ByGpu<u64>), PrecisionError> {
         let options = EmitOptions::new().unbounded_loops(true).targets([Target::Spirv]);
         let emitted = compiled.emit(&options).map_err(ExecuteError::from)?;
         let module = emitted.files.get(&Target::Spirv).map_or(&[][..], Vec::as_slice);
@@ -198,25 +214,17 @@ impl Judge<'_> {
                 .map(|thread| thread.join().expect("a compiler's thread ends"))
                 .collect()
         });
-        let mut all = BTreeMap::new();
+        let (mut machine, mut costs) = (BTreeMap::new(), BTreeMap::new());
         for (gpu, answer) in answers {
-            let figures = MachineFigures::from(&answer?.figures);
-            if figures.cost().is_none() {
+            let figures = answer?.figures;
+            let Some(cost) = figures.cost() else {
                 let why = "its compiler states no cycles, and instructions do not say how often those of a loop run"
                     .to_owned();
                 return Err(PrecisionError::NoFigures { gpu, why });
-            }
-            all.insert(gpu, figures);
+            };
+            machine.insert(gpu.clone(), MachineFigures::from(&figures));
+            costs.insert(gpu, cost);
         }
-        Ok(all)
-    }
-
-    /// Costs over those of full precision, by GPU.
-    fn ratios(&self, machine: &BTreeMap<String, MachineFigures>) -> BTreeMap<String, f64> {
-        let ratios = machine.iter().filter_map(|(gpu, figures)| {
-            let whole = self.whole.get(gpu)?.cost()?;
-            Some((gpu.clone(), figures.cost()? as f64 / whole.max(1) as f64))
-        });
-        ratios.collect()
+        Ok((machine, costs))
     }
 }

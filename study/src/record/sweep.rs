@@ -85,12 +85,6 @@ impl From<&Figures> for MachineFigures {
 }
 
 impl MachineFigures {
-    /// Cost that variants are compared by, as [`Figures::cost`].
-    pub fn cost(&self) -> Option<u64> {
-        let keeps_loops = self.loops.is_some_and(|loops| loops > 0);
-        self.cycles.or((!keeps_loops).then_some(self.instructions))
-    }
-
     /// Figures that there are not.
     pub fn refused(why: String) -> MachineFigures {
         MachineFigures {

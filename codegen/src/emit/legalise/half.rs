@@ -2,7 +2,6 @@
 //! precision.
 
 use crate::emit::ast::{Expr, Module, Op, Stmt, StmtKind, Ty};
-use crate::emit::lower::to_full;
 use straightline_evaluator::ir;
 
 /// The largest finite number of half precision.
@@ -18,7 +17,7 @@ pub fn legalise_half(module: &mut Module<'_>) {
     for stmt in &mut module.body {
         if let StmtKind::Output(values) = &mut stmt.kind {
             for value in values {
-                *value = to_full(value.clone());
+                *value = value.clone().into_full();
             }
         }
     }
@@ -28,7 +27,7 @@ pub fn legalise_half(module: &mut Module<'_>) {
 fn widen_stored(stmt: &mut Stmt<'_>) {
     if let StmtKind::Effect(effect) = &mut stmt.kind {
         for arg in &mut effect.args {
-            *arg = to_full(arg.clone());
+            *arg = arg.clone().into_full();
         }
     }
     stmt.blocks_mut().into_iter().flatten().for_each(widen_stored);
@@ -38,17 +37,6 @@ fn to_half_type(ty: Ty) -> Ty {
     Ty {
         half: ty.is_float(),
         ..ty
-    }
-}
-
-/// Converts a value to the precision of the shader's arithmetic.
-fn to_half_precision(expr: Expr) -> Expr {
-    match expr.ty.is_float() {
-        true => {
-            let ty = to_half_type(expr.ty);
-            expr.convert_to(ty)
-        }
-        false => expr,
     }
 }
 
@@ -73,27 +61,27 @@ fn half_rule(mut expr: Expr) -> Expr {
             | Varying(_)
             | Bitcast,
         ) => {
-            expr.args = expr.args.into_iter().map(to_full).collect();
-            to_half_precision(expr)
+            expr.args = expr.args.into_iter().map(Expr::into_full).collect();
+            expr.into_half()
         }
         // Conversions between half precision and integers go through `f32`, which holds every `f16` and every integer that
         // an `f16` holds. Driver-specific behaviour is then the same as in full precision.
         Op::Convert { fits } => {
             let fits = *fits;
-            expr.args = expr.args.into_iter().map(to_full).collect();
+            expr.args = expr.args.into_iter().map(Expr::into_full).collect();
             let clamps = !fits && expr.args[0].ty.is_integer() && expr.ty.is_float();
             if clamps {
                 let ty = expr.ty;
                 let [low, high] = [-LARGEST, LARGEST].map(|x| Expr::splat(ty, x.to_bits()));
                 expr = Expr::new(Op::Ir(ir::Op::Clamp), vec![expr, low, high], ty);
             }
-            to_half_precision(expr)
+            expr.into_half()
         }
         // Converts only the components in use, not the whole texel.
         Op::Swizzle(_) if matches!(expr.args[0].op, Op::Convert { .. }) && expr.args[0].ty.half => {
             let converted = expr.args.pop().expect("a vector");
             expr.args = converted.args;
-            to_half_precision(expr)
+            expr.into_half()
         }
         _ => {
             expr.ty = to_half_type(expr.ty);

@@ -1,7 +1,6 @@
 //! Values that the text holds in half precision, and conversions where they meet others.
 
 use crate::compiled::Compiled;
-use crate::emit::ast::{Expr, Ty};
 use straightline_evaluator::ir::{Graph, NodeId, Op, Real};
 use straightline_evaluator::passes;
 
@@ -34,15 +33,24 @@ fn widen_vectors(graph: &Graph, halves: &mut [bool]) {
         if matches!(node.op, Op::Splat | Op::Compose) && !is_used[id.0 as usize] {
             halves[id.0 as usize] = false;
         }
-        let in_half = halves[id.0 as usize] || (!node.ty.is_float() && operands_are_half(graph, id, halves));
+        let in_half = is_operation_on_halves(graph, id, halves);
         for arg in node.args.iter().filter(|_| in_half) {
             is_used[arg.0 as usize] = true;
         }
     }
 }
 
+/// Returns whether a node computes with operands in half precision: for a value that is an `f16`, or a comparison.
+pub fn is_operation_on_halves(graph: &Graph, id: NodeId, halves: &[bool]) -> bool {
+    let node = graph.node(id);
+    match node.ty.is_float() || passes::keeps_operands(&node.op) {
+        true => halves[id.0 as usize],
+        false => operands_are_half(graph, id, halves),
+    }
+}
+
 /// Returns whether every float among a node's operands is an `f16` or a constant that one holds, and not all are constants.
-pub fn operands_are_half(graph: &Graph, id: NodeId, halves: &[bool]) -> bool {
+fn operands_are_half(graph: &Graph, id: NodeId, halves: &[bool]) -> bool {
     let floats = graph.node(id).args.iter().filter(|arg| graph.ty(**arg).is_float());
     let (mut any, mut all) = (false, true);
     for arg in floats {
@@ -74,28 +82,4 @@ fn rounded_alone(graph: &Graph) -> Vec<bool> {
         region.yielded_values().for_each(|id| rounded[id.0 as usize] = false);
     }
     rounded
-}
-
-/// Converts a float to half precision, and any other value not at all.
-pub fn to_half(mut expr: Expr) -> Expr {
-    if !expr.ty.is_float() || expr.ty.half {
-        return expr;
-    }
-    let ty = Ty { half: true, ..expr.ty };
-    if expr.as_constant().is_some() {
-        expr.ty = ty;
-        return expr;
-    }
-    expr.convert_to(ty)
-}
-
-/// Converts a float to full precision, and any other value not at all.
-pub fn to_full(expr: Expr) -> Expr {
-    match expr.ty.half {
-        true => {
-            let ty = expr.ty.to_full_precision();
-            expr.convert_to(ty)
-        }
-        false => expr,
-    }
 }

@@ -19,10 +19,9 @@ use crate::compiled::Compiled;
 use coalescing::ArrayCoalescing;
 use exactness::Exactness;
 use straightline_evaluator::ir::{self, BinaryOp, NodeId, Origin, Type};
-use straightline_evaluator::passes::{self, Block, Step};
+use straightline_evaluator::passes::{Block, Step};
 
 pub use entry::wrap_entry_point;
-pub use halves::{to_full, to_half};
 
 /// Number of uses from which a constant vector gets its own variable.
 const OFTEN: u32 = 6;
@@ -257,7 +256,7 @@ impl<'g> Lowering<'g> {
 
     /// Returns the expression of a node that has been evaluated, in full precision.
     fn node_expr(&mut self, id: NodeId) -> Expr {
-        to_full(self.held_expr(id))
+        self.held_expr(id).into_full()
     }
 
     /// Returns the expression of a node that has been evaluated, in the precision that holds its value.
@@ -281,12 +280,10 @@ impl<'g> Lowering<'g> {
         let graph = &self.compiled.graph;
         let node = graph.node(id);
         let args: Vec<Expr> = node.args.iter().map(|arg| self.held_expr(*arg)).collect();
-        let in_half = match node.ty.is_float() || passes::keeps_operands(&node.op) {
-            true => self.halves[id.0 as usize],
-            // A comparison.
-            false => halves::operands_are_half(graph, id, &self.halves),
+        let convert = match halves::is_operation_on_halves(graph, id, &self.halves) {
+            true => Expr::into_half,
+            false => Expr::into_full,
         };
-        let convert = if in_half { to_half } else { to_full };
         let mut args: Vec<Expr> = args.into_iter().map(convert).collect();
         let op = match &node.op {
             ir::Op::Pixel => Op::Var(VarId::PIXEL),
