@@ -134,6 +134,18 @@ fn attributes_choose_like_the_setting() {
 }
 
 #[test]
+fn the_kernel_of_the_document_is_taken() {
+    let document = include_str!("../../../../docs/precision.md");
+    let text = document
+        .split("```rust\n")
+        .nth(1)
+        .and_then(|rest| rest.split("```").next());
+    let kernel = Kernel::from_text("vivid.rs", text.expect("a kernel"), "vivid");
+    let compiled = kernel.compile(&Settings::default()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(compiled.half.iter().collect::<Vec<_>>(), ["grey"]);
+}
+
+#[test]
 fn attributes_elsewhere_are_refused() {
     for (text, expected) in [
         (
