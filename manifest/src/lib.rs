@@ -7,6 +7,7 @@
 
 #[cfg(feature = "json")]
 mod binding;
+pub mod chain;
 #[cfg(feature = "json")]
 mod form;
 mod format;

@@ -1,0 +1,257 @@
+//! The plan of a chain: passes that run one after another, with the pictures between them.
+//!
+//! As a [`Plan`](crate::plan::Plan), it is made of constants, or read from JSON.
+
+use crate::Format;
+use crate::plan::{List, Text};
+#[cfg(feature = "json")]
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Version of the layout of a chain's JSON. A reader refuses a chain whose schema it does not know.
+pub const CHAIN_SCHEMA: u32 = 1;
+
+/// Most terms of a rule for a size.
+const MOST_TERMS: usize = 256;
+
+/// Passes in order, with the pictures that they write and read.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(deny_unknown_fields))]
+pub struct ChainPlan {
+    /// Layout version, [`CHAIN_SCHEMA`].
+    pub schema: u32,
+    /// Name of the function that describes the chain.
+    pub chain: Text,
+    /// Textures, samplers and buffers of the caller, by name.
+    pub inputs: List<Text>,
+    /// Pictures in the order in which they are written. Their names differ from those of inputs.
+    pub pictures: List<PicturePlan>,
+    /// Passes in the order in which they run.
+    pub passes: List<PassPlan>,
+}
+
+/// A picture that a pass writes.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(deny_unknown_fields))]
+pub struct PicturePlan {
+    /// Name: that of the variable that holds it, with a number where several have it.
+    pub name: Text,
+    /// Its width and height.
+    pub size: SizeRule,
+    /// Format of its texels.
+    pub format: Format,
+    /// Number of the texture that holds it. Pictures of one number have one size and format, and are never needed at the same
+    /// time. `None` for a result of the chain, which the caller owns.
+    #[cfg_attr(feature = "json", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub memory: Option<u32>,
+}
+
+/// A pass.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(deny_unknown_fields))]
+pub struct PassPlan {
+    /// Name: that of the first picture that it writes.
+    pub name: Text,
+    /// Name of its shader, which several passes may have.
+    pub shader: Text,
+    /// Inputs of the shader with what each reads.
+    pub reads: List<ReadPlan>,
+    /// Names of the pictures that it writes, in the order of the shader's outputs.
+    pub writes: List<Text>,
+}
+
+/// An input of a pass.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(deny_unknown_fields))]
+pub struct ReadPlan {
+    /// Name in the shader.
+    pub name: Text,
+    /// Name of the input of the chain, or of the picture.
+    pub from: Text,
+}
+
+/// The size of a picture, computed from those of inputs: terms in postfix order, on a stack of sizes.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(transparent))]
+pub struct SizeRule(pub List<SizeTerm>);
+
+/// A term of a [`SizeRule`].
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(rename_all = "lowercase"))]
+pub enum SizeTerm {
+    /// Pushes the size of an input of the chain, by name.
+    Of(Text),
+    /// Pushes a width and a height.
+    Number([u32; 2]),
+    /// Takes two sizes off the stack and pushes what the operation makes of them, for width and height.
+    Apply(SizeOp),
+}
+
+/// An operation on two widths, or two heights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(rename_all = "lowercase"))]
+#[allow(missing_docs)] // named as in Rust
+pub enum SizeOp {
+    Add,
+    Sub,
+    Mul,
+    /// Rounded down; by 0, the dividend.
+    Div,
+    Max,
+    Min,
+}
+
+impl SizeOp {
+    /// Computes the operation. Results that a `u32` cannot hold are its nearest value.
+    pub fn apply(self, a: u32, b: u32) -> u32 {
+        match self {
+            SizeOp::Add => a.saturating_add(b),
+            SizeOp::Sub => a.saturating_sub(b),
+            SizeOp::Mul => a.saturating_mul(b),
+            SizeOp::Div => a.checked_div(b).unwrap_or(a),
+            SizeOp::Max => a.max(b),
+            SizeOp::Min => a.min(b),
+        }
+    }
+}
+
+/// A rule that yields no size: what is wrong with it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadRule(pub String);
+
+impl fmt::Display for BadRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for BadRule {}
+
+impl SizeRule {
+    /// Computes the size, at least 1 in both directions. `size_of` gives the size of an input.
+    ///
+    /// # Errors
+    ///
+    /// An input without a size; terms that leave no size or several on the stack, or are too many. The generator writes none such.
+    pub fn evaluate(&self, size_of: &dyn Fn(&str) -> Option<[u32; 2]>) -> Result<[u32; 2], BadRule> {
+        if self.0.len() > MOST_TERMS {
+            return Err(BadRule(format!("{} terms, more than {MOST_TERMS}", self.0.len())));
+        }
+        let mut stack: Vec<[u32; 2]> = Vec::new();
+        for term in self.0.iter() {
+            let size = match term {
+                SizeTerm::Of(name) => size_of(name).ok_or_else(|| BadRule(format!("`{name}` has no size")))?,
+                SizeTerm::Number(size) => *size,
+                SizeTerm::Apply(op) => match (stack.pop(), stack.pop()) {
+                    (Some(b), Some(a)) => [0, 1].map(|axis: usize| op.apply(a[axis], b[axis])),
+                    _ => return Err(BadRule("an operation without its two sizes".to_owned())),
+                },
+            };
+            stack.push(size);
+        }
+        match stack.as_slice() {
+            [size] => Ok(size.map(|side| side.max(1))),
+            left => Err(BadRule(format!("{} sizes, not one", left.len()))),
+        }
+    }
+}
+
+/// In infix form, as in Rust: `color.size() / 2`.
+impl fmt::Display for SizeRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut stack: Vec<String> = Vec::new();
+        for term in self.0.iter() {
+            let text = match term {
+                SizeTerm::Of(name) => format!("{name}.size()"),
+                SizeTerm::Number([x, y]) if x == y => x.to_string(),
+                SizeTerm::Number([x, y]) => format!("({x}, {y})"),
+                SizeTerm::Apply(op) => {
+                    let (b, a) = (stack.pop().unwrap_or_default(), stack.pop().unwrap_or_default());
+                    let grouped = |text: String| match text.contains(' ') && !text.starts_with('(') {
+                        true => format!("({text})"),
+                        false => text,
+                    };
+                    match op {
+                        SizeOp::Add => format!("{a} + {}", grouped(b)),
+                        SizeOp::Sub => format!("{a} - {}", grouped(b)),
+                        SizeOp::Mul => format!("{} * {}", grouped(a), grouped(b)),
+                        SizeOp::Div => format!("{} / {}", grouped(a), grouped(b)),
+                        SizeOp::Max => format!("{}.max({b})", grouped(a)),
+                        SizeOp::Min => format!("{}.min({b})", grouped(a)),
+                    }
+                }
+            };
+            stack.push(text);
+        }
+        f.write_str(&stack.join(", "))
+    }
+}
+
+impl ChainPlan {
+    /// Returns the picture of a name.
+    pub fn picture(&self, name: &str) -> Option<&PicturePlan> {
+        self.pictures.iter().find(|picture| picture.name == name)
+    }
+
+    /// Pictures that the caller owns, in the order of the chain's results.
+    pub fn results(&self) -> impl Iterator<Item = &PicturePlan> {
+        self.pictures.iter().filter(|picture| picture.memory.is_none())
+    }
+
+    /// Names of the shaders, each once, in the order of the passes.
+    pub fn shaders(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for pass in self.passes.iter() {
+            if !names.contains(&&*pass.shader) {
+                names.push(&pass.shader);
+            }
+        }
+        names
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SizeOp, SizeRule, SizeTerm};
+
+    fn rule(terms: &[SizeTerm]) -> SizeRule {
+        SizeRule(terms.to_vec().into())
+    }
+
+    #[test]
+    fn sizes_are_computed_and_shown() {
+        let of = || SizeTerm::Of("color".into());
+        let half = rule(&[of(), SizeTerm::Number([2, 2]), SizeTerm::Apply(SizeOp::Div)]);
+        let size_of = |name: &str| (name == "color").then_some([7, 1]);
+        assert_eq!(half.evaluate(&size_of), Ok([3, 1]));
+        assert_eq!(half.to_string(), "color.size() / 2");
+        let quarter = rule(
+            &[
+                half.0.to_vec(),
+                vec![
+                    SizeTerm::Number([1, 0]),
+                    SizeTerm::Apply(SizeOp::Add),
+                    SizeTerm::Number([2, 2]),
+                    SizeTerm::Apply(SizeOp::Div),
+                ],
+            ]
+            .concat(),
+        );
+        assert_eq!(quarter.evaluate(&size_of), Ok([2, 1]));
+        assert_eq!(quarter.to_string(), "(color.size() / 2 + (1, 0)) / 2");
+    }
+
+    #[test]
+    fn bad_rules_are_refused() {
+        let none = |_: &str| None;
+        let refused = |terms: &[SizeTerm]| rule(terms).evaluate(&none).unwrap_err().to_string();
+        assert_eq!(refused(&[]), "0 sizes, not one");
+        assert_eq!(refused(&[SizeTerm::Of("a".into())]), "`a` has no size");
+        assert_eq!(
+            refused(&[SizeTerm::Number([1, 1]), SizeTerm::Apply(SizeOp::Add)]),
+            "an operation without its two sizes"
+        );
+        let many = vec![SizeTerm::Number([1, 1]); 300];
+        assert_eq!(refused(&many), "300 terms, more than 256");
+    }
+}
