@@ -3,13 +3,14 @@
 use crate::compiled::Compiled;
 use crate::emit::Emitted;
 use crate::files::{self, shorten};
-use crate::pipeline::{self, Observer, Source};
+use crate::pipeline::{self, Change, Observer, Source, Start};
 use crate::spec::{Settings, ShaderSpec};
 use std::borrow::Cow;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File, Span};
 use straightline_evaluator::eval::{self, OptionInfo};
+use straightline_evaluator::front::chain;
 use straightline_evaluator::front::testing::Test;
 use straightline_evaluator::front::{self, Library, Parsed};
 use straightline_evaluator::infer;
@@ -22,12 +23,24 @@ const PRESET: &str = "preset";
 /// Longest file of a kernel that is read, in bytes.
 const MAX_SOURCE: u64 = 1 << 24;
 
+/// Function of the files that is the kernel, or is made one.
+#[derive(Clone, Debug)]
+enum Entry {
+    /// The function that the source names.
+    Function,
+    /// A test.
+    Test(Arc<Test>),
+    /// A pass of a chain, whose options have these values.
+    Pass(Arc<(String, OptionValues)>),
+    /// The options of a chain, without its passes.
+    ChainOptions,
+}
+
 /// A kernel's source: its files and which function it is.
 #[derive(Clone, Debug)]
 pub struct Kernel {
     source: Source,
-    /// The test that the kernel is made of.
-    test: Option<Arc<Test>>,
+    entry: Entry,
     /// Items of the files, read once for all variants.
     library: OnceLock<Arc<Library>>,
     described: OnceLock<Arc<[OptionInfo]>>,
@@ -37,7 +50,7 @@ impl Kernel {
     fn new(source: Source) -> Kernel {
         Kernel {
             source,
-            test: None,
+            entry: Entry::Function,
             library: OnceLock::new(),
             described: OnceLock::new(),
         }
@@ -86,9 +99,33 @@ impl Kernel {
             files: Arc::clone(files),
         };
         Kernel {
-            test: Some(Arc::new(test.clone())),
+            entry: Entry::Test(Arc::new(test.clone())),
             ..Kernel::new(source)
         }
+    }
+
+    /// Makes a kernel of the pass `entry` of a chain, whose options have these values.
+    pub(crate) fn from_pass(files: &Arc<Vec<File>>, chain: &str, options: &OptionValues, entry: &str) -> Kernel {
+        Kernel {
+            entry: Entry::Pass(Arc::new((chain.to_owned(), options.clone()))),
+            ..Kernel::of_chain(files, entry)
+        }
+    }
+
+    /// Makes a kernel that has nothing but the options of a chain.
+    pub(crate) fn options_of_chain(files: &Arc<Vec<File>>, chain: &str) -> Kernel {
+        Kernel {
+            entry: Entry::ChainOptions,
+            ..Kernel::of_chain(files, chain)
+        }
+    }
+
+    fn of_chain(files: &Arc<Vec<File>>, name: &str) -> Kernel {
+        Kernel::new(Source {
+            name: front::unraw(name).to_owned(),
+            builtin: None,
+            files: Arc::clone(files),
+        })
     }
 
     /// Reads a kernel from a file of the caller's. Without `function` it is the public function that has the file's name, or else the only
@@ -265,9 +302,12 @@ impl Kernel {
         if let Some(library) = self.library.get() {
             return Ok(Arc::clone(library));
         }
-        let parsed = match &self.test {
-            Some(test) => front::testing::parse_test(&self.source.files, test)?,
-            None => front::parse(&self.source.files, &self.source.name)?,
+        let (files, name) = (&self.source.files, &self.source.name);
+        let parsed = match &self.entry {
+            Entry::Function => front::parse(files, name)?,
+            Entry::Test(test) => front::testing::parse_test(files, test)?,
+            Entry::Pass(of) => chain::parse_pass(files, &of.0, &of.1, name)?,
+            Entry::ChainOptions => chain::parse_options(files, name)?,
         };
         let Parsed {
             mut library,
@@ -296,6 +336,26 @@ impl Kernel {
 
     /// As [`Kernel::compile`], showing the graph after each stage. The graph is verified between stages.
     pub fn compile_observed(&self, settings: &Settings, observer: &mut Observer<'_>) -> Result<Compiled, Errors> {
+        self.compile_changed(settings, observer, &Ok)
+    }
+
+    /// Evaluates the kernel alone.
+    pub(crate) fn evaluate(&self, settings: &Settings) -> Result<Start, Errors> {
+        deep(|| {
+            let _meter = Meter::open(settings.limits());
+            let library = self.typed_library()?;
+            let (start, _) = pipeline::evaluate(&self.source, &library, settings)?;
+            Ok(start)
+        })
+    }
+
+    /// As [`Kernel::compile_observed`], with a change of the kernel after its evaluation.
+    pub(crate) fn compile_changed(
+        &self,
+        settings: &Settings,
+        observer: &mut Observer<'_>,
+        change: &Change<'_>,
+    ) -> Result<Compiled, Errors> {
         deep(|| {
             let _meter = Meter::open(settings.limits());
             let library = self.typed_library()?;
@@ -306,7 +366,7 @@ impl Kernel {
                     ..settings.clone()
                 }),
             };
-            let mut compiled = pipeline::compile(&self.source, &library, &settings, observer)?;
+            let mut compiled = pipeline::compile(&self.source, &library, &settings, observer, change)?;
             compiled.changed = self.changed_options(&library, &settings, &compiled.options)?;
             Ok(compiled)
         })
@@ -339,12 +399,16 @@ impl ShaderSpec {
     ///
     /// As [`Kernel::compile`].
     pub fn compile(&self, kernel: &Kernel) -> Result<Compiled, Errors> {
+        kernel.compile(&self.dispatched_settings())
+    }
+
+    /// The settings for workgroups of the size that is dispatched, which share texels.
+    pub(crate) fn dispatched_settings(&self) -> Settings {
         let mut settings = self.settings.clone();
-        // A workgroup that shares texels is the one that is dispatched.
         if let Some(size) = self.emit.workgroup {
             settings.share = settings.share.of_size(size);
         }
-        kernel.compile(&settings)
+        settings
     }
 
     /// Compiles a kernel and writes its shader.

@@ -48,6 +48,7 @@
 //! Every function returns [`diagnostic::Errors`]: messages with a code, a place in the kernel's source and the code to write instead. They
 //! print as rustc's do. A kernel cannot take unbounded time or memory: see [`Limits`].
 
+pub mod chain;
 mod compiled;
 pub mod config;
 pub mod default_set;

@@ -28,18 +28,23 @@ pub struct Source {
     pub files: Arc<Vec<File>>,
 }
 
-/// Compiles a kernel whose files define `library`. The list of changed options is left empty.
+/// A kernel as it was evaluated, before any stage.
+#[derive(Clone, Debug)]
+pub struct Start {
+    pub graph: Graph,
+    /// Names of the values that attributes put into half precision.
+    pub half: BTreeSet<String>,
+}
+
+/// A change of a kernel between its evaluation and the stages.
+pub type Change<'a> = dyn Fn(Start) -> Result<Start, Errors> + Sync + 'a;
+
+/// Evaluates a kernel whose files define `library`.
 ///
 /// # Errors
 ///
 /// All errors of the kernel under these settings.
-pub fn compile(
-    kernel: &Source,
-    library: &Library,
-    settings: &Settings,
-    observer: &mut Observer<'_>,
-) -> Result<Compiled, Errors> {
-    let meter = Meter::open(settings.limits());
+pub fn evaluate(kernel: &Source, library: &Library, settings: &Settings) -> Result<(Start, Evaluated), Errors> {
     let policy = settings.policy();
     policy.check().map_err(|what| {
         let help = "use full, none, or partial(N), and name each loop once";
@@ -58,11 +63,28 @@ pub fn compile(
         invocation,
     )?;
     let graph = std::mem::take(&mut evaluated.graph);
-    let half = library
-        .functions
-        .values()
-        .flat_map(|function| function.half.iter().cloned())
-        .collect();
+    let functions = library.functions.values();
+    let half = functions.flat_map(|function| function.half.iter().cloned()).collect();
+    Ok((Start { graph, half }, evaluated))
+}
+
+/// Compiles a kernel whose files define `library`, with `change` after its evaluation. The list of changed options is left
+/// empty.
+///
+/// # Errors
+///
+/// All errors of the kernel under these settings, and those of `change`.
+pub fn compile(
+    kernel: &Source,
+    library: &Library,
+    settings: &Settings,
+    observer: &mut Observer<'_>,
+    change: &Change<'_>,
+) -> Result<Compiled, Errors> {
+    let meter = Meter::open(settings.limits());
+    let policy = settings.policy();
+    let (start, evaluated) = evaluate(kernel, library, settings)?;
+    let Start { graph, half } = change(start)?;
     let mut pipeline = Pipeline {
         kernel,
         settings,

@@ -128,6 +128,11 @@ impl fmt::Display for BadRule {
 impl std::error::Error for BadRule {}
 
 impl SizeRule {
+    /// The size of an input.
+    pub fn of_input(name: &str) -> SizeRule {
+        SizeRule(vec![SizeTerm::Of(name.to_owned().into())].into())
+    }
+
     /// Computes the size, at least 1 in both directions. `size_of` gives the size of an input.
     ///
     /// # Errors
@@ -196,6 +201,14 @@ impl ChainPlan {
     /// Pictures that the caller owns, in the order of the chain's results.
     pub fn results(&self) -> impl Iterator<Item = &PicturePlan> {
         self.pictures.iter().filter(|picture| picture.memory.is_none())
+    }
+
+    /// The plan as indented JSON that ends in a newline. Equal plans give equal text.
+    #[cfg(feature = "json")]
+    pub fn to_json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("a plan is plain data");
+        text.push('\n');
+        text
     }
 
     /// Names of the shaders, each once, in the order of the passes.

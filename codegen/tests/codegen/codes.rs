@@ -4,6 +4,7 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
+use straightline_codegen::chain::{Chain, ChainSpec};
 use straightline_codegen::diagnostic::Code;
 use straightline_codegen::{EmitOptions, Kernel, Settings};
 
@@ -55,11 +56,20 @@ fn blocks(explanation: &str) -> Vec<(&str, &str)> {
     found
 }
 
-/// Codes with which a kernel is refused; none if it is one.
+/// Codes with which a kernel or chain is refused; none if it is one.
 fn codes_of(text: &str) -> BTreeSet<Code> {
-    let compiled = Kernel::from_text("k.rs", text, "k").compile(&Settings::default());
-    let outcome = compiled.and_then(|compiled| compiled.emit(&EmitOptions::new()));
-    let errors = outcome.err().map(|errors| errors.diagnostics).unwrap_or_default();
+    let errors = match Chain::find("k.rs", text, Some("k"), "k") {
+        Ok(None) => {
+            let compiled = Kernel::from_text("k.rs", text, "k").compile(&Settings::default());
+            compiled.and_then(|compiled| compiled.emit(&EmitOptions::new())).err()
+        }
+        Ok(Some(chain)) => chain
+            .compile(&ChainSpec::default())
+            .and_then(|chain| chain.emit())
+            .err(),
+        Err(errors) => Some(errors),
+    };
+    let errors = errors.map(|errors| errors.diagnostics).unwrap_or_default();
     errors.iter().map(|error| error.code().expect("a code")).collect()
 }
 

@@ -1,12 +1,13 @@
 //! Every message of the generator, as a user sees it: `tests/errors/NAME.rs` is refused with `NAME.txt`. Lines
 //! `// set: OPTION=VALUE`, `// unroll: POLICY`, `// unroll-loop: LOOP=POLICY`, `// budget: N`, `// function: NAME`,
-//! `// stage: fragment`, `// target: LANGUAGE`, `// binding: NAME=N`, `// register: NAME=REGISTER`, `// entry: NAME`, `// form: FORM` and
+//! `// fuse: PICTURES`, `// stage: fragment`, `// target: LANGUAGE`, `// binding: NAME=N`, `// register: NAME=REGISTER`, `// entry: NAME`, `// form: FORM` and
 //! `// origin: ORIGIN` at the top of a case say how it is compiled and emitted.
 //!
 //! `STRAIGHTLINE_BLESS=1` writes what the messages are now.
 
 use std::path::{Path, PathBuf};
-use straightline_codegen::{EmitOptions, Kernel, Settings, Stage};
+use straightline_codegen::chain::{Chain, ChainSpec, Fuse};
+use straightline_codegen::{EmitOptions, Kernel, Settings, ShaderSpec, Stage};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/errors")
@@ -27,6 +28,7 @@ fn message(path: &Path) -> Result<String, String> {
     let mut settings = Settings::default();
     let mut options = EmitOptions::new();
     let mut function = "k".to_owned();
+    let mut fuse = Fuse::None;
     for line in text.lines().map_while(|line| line.strip_prefix("// ")) {
         let (what, value) = line.split_once(": ").ok_or("a directive is `// WHAT: VALUE`")?;
         let pair = || value.split_once('=').ok_or("a pair is NAME=VALUE".to_owned());
@@ -41,6 +43,7 @@ fn message(path: &Path) -> Result<String, String> {
             }
             "budget" => settings.budget = value.parse().map_err(|_| "a number")?,
             "function" => value.clone_into(&mut function),
+            "fuse" => fuse = value.parse()?,
             "stage" => options.stage = Stage::Fragment,
             "target" => options = options.targets([value.parse()?]),
             "binding" => {
@@ -55,6 +58,19 @@ fn message(path: &Path) -> Result<String, String> {
             "form" => options.form = value.parse()?,
             "origin" => options.origin = value.parse()?,
             other => return Err(format!("no such directive: {other}")),
+        }
+    }
+    match Chain::find(&name, &text, Some(&function), &function) {
+        Err(errors) => return Ok(errors.render(false)),
+        Ok(None) => {}
+        Ok(Some(chain)) => {
+            let mut spec = ShaderSpec::new();
+            (spec.settings, spec.emit) = (settings, options);
+            let compiled = chain.compile(&ChainSpec::from(spec).fuse(fuse));
+            return match compiled.and_then(|compiled| compiled.emit()) {
+                Err(errors) => Ok(errors.render(false)),
+                Ok(_) => Err("it is a chain".to_owned()),
+            };
         }
     }
     match Kernel::from_text(&name, &text, &function).compile(&settings) {

@@ -98,6 +98,7 @@ codes! {
     QuadMessage = "E0409", "a question to other pixels from a kernel of one pixel";
     MutableReference = "E0410", "a mutable reference to no single variable";
     DiffersFromRust = "E0411", "a method that shaders compute differently";
+    ChainForm = "E0412", "a chain of passes that cannot be put in order";
 
     RuntimeIndex = "E0501", "a runtime index where only a constant can be";
     IndexOutOfRange = "E0502", "an index out of range";

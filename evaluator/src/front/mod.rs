@@ -6,6 +6,7 @@
 mod attribute;
 mod block;
 mod cfg;
+pub mod chain;
 mod check;
 mod choice;
 mod closure;

@@ -14,6 +14,7 @@
 mod buffer;
 mod frame;
 pub mod maths;
+mod picture;
 mod quad;
 mod storage;
 mod texture;
@@ -27,6 +28,7 @@ pub use glam::{
 pub use buffer::Buffer;
 pub use frame::{Frame, FrameLayers};
 pub use maths::{fract, inverse_sqrt, mix, round, saturate, sign, smoothstep, step};
+pub use picture::{Picture, draw};
 pub use quad::{PerLane, Quad, lane_position, quad_select, quad_vector};
 pub use storage::{AtomicBuffer, AtomicElement, StorageBuffer, StorageTexture};
 pub use texture::{

@@ -1,0 +1,127 @@
+//! Decision which pictures of a chain are computed where they are read.
+
+use super::spec::Fuse;
+use crate::pipeline::Start;
+use std::collections::BTreeMap;
+use straightline_evaluator::diagnostic::{Code, Diagnostic};
+use straightline_evaluator::front::chain::{Chain, Source};
+use straightline_evaluator::ir::Op;
+use straightline_evaluator::passes::{self, Unfused};
+use straightline_evaluator::suggest_name;
+
+/// Cost of a read or a store of a texel, in operations. Ratios of a texture unit's rate to that of arithmetic lie between 4 and
+/// 16 on GPUs of ten years.
+const TEXEL: usize = 8;
+
+/// Reason why a picture is stored that could have been asked for.
+pub struct Kept {
+    /// Index of the picture.
+    pub picture: usize,
+    /// Reason, as a message has it.
+    pub reason: String,
+}
+
+/// Pictures to compute where they are read, by index, and the others with a reason.
+pub struct Decision {
+    pub fused: Vec<bool>,
+    pub kept: Vec<Kept>,
+}
+
+/// Decides which pictures are computed where they are read.
+///
+/// # Errors
+///
+/// A name that no picture has, or that of a picture that has to be stored.
+pub fn decide(chain: &Chain, starts: &BTreeMap<String, Start>, fuse: &Fuse) -> Result<Decision, Diagnostic> {
+    let mut decision = Decision {
+        fused: vec![false; chain.pictures.len()],
+        kept: Vec::new(),
+    };
+    if let Fuse::Named(names) = fuse {
+        check_names(chain, names.iter().map(String::as_str))?;
+    }
+    for (index, picture) in chain.pictures.iter().enumerate() {
+        let wanted = match fuse {
+            Fuse::None => false,
+            Fuse::Auto | Fuse::All => true,
+            Fuse::Named(names) => names.contains(&picture.name),
+        };
+        if !wanted {
+            continue;
+        }
+        let reason = match obstacle(chain, starts, index) {
+            Err(reason) => reason,
+            Ok(reads) if *fuse == Fuse::Auto && !pays(&starts[&chain.passes[index].entry], &reads) => {
+                let operations = operations(&starts[&chain.passes[index].entry]);
+                let total: usize = reads.iter().sum();
+                format!("{total} reads of it cost less than {operations} operations each")
+            }
+            Ok(_) => {
+                decision.fused[index] = true;
+                continue;
+            }
+        };
+        if let Fuse::Named(_) = fuse {
+            let what = format!("the picture `{}` cannot be fused: {reason}", picture.name);
+            return Err(Diagnostic::error_at(Code::UnfitSetting, picture.span, what)
+                .label("drawn here")
+                .help("leave it out of `--fuse`, or use `--fuse auto`"));
+        }
+        decision.kept.push(Kept { picture: index, reason });
+    }
+    Ok(decision)
+}
+
+fn check_names<'n>(chain: &Chain, names: impl Iterator<Item = &'n str>) -> Result<(), Diagnostic> {
+    let known: Vec<&str> = chain.pictures.iter().map(|picture| picture.name.as_str()).collect();
+    for name in names {
+        if !known.contains(&name) {
+            let what = format!("`{}` has no picture `{name}`", chain.name);
+            let help = suggest_name(name, &known, "its pictures are");
+            return Err(Diagnostic::error_at(Code::SettingValue, chain.span, what)
+                .label("this chain")
+                .help(help));
+        }
+    }
+    Ok(())
+}
+
+/// Numbers of coordinates at which each later pass reads a picture, or the reason why it has to be stored.
+fn obstacle(chain: &Chain, starts: &BTreeMap<String, Start>, index: usize) -> Result<Vec<usize>, String> {
+    if chain.results.contains(&index) {
+        return Err("it is a result of the chain".to_owned());
+    }
+    let start = &starts[&chain.passes[index].entry];
+    if let Some(obstacle) = passes::find_obstacle(&start.graph) {
+        return Err(obstacle.to_string());
+    }
+    let mut reads = Vec::new();
+    for pass in &chain.passes {
+        let graph = &starts[&pass.entry].graph;
+        for (name, _) in pass
+            .reads
+            .iter()
+            .filter(|(_, source)| *source == Source::Picture(index))
+        {
+            reads.push(passes::count_reads(graph, name).ok_or_else(|| Unfused::Sampled.to_string())?);
+        }
+    }
+    Ok(reads)
+}
+
+/// Returns whether computing a picture at every read costs no more than storing it once and reading it.
+fn pays(producer: &Start, reads: &[usize]) -> bool {
+    let each = operations(producer);
+    let total: usize = reads.iter().sum();
+    total * each <= each + TEXEL + total * TEXEL
+}
+
+/// Cost of a texel of a picture in operations.
+fn operations(start: &Start) -> usize {
+    let cost = |op: &Op| match op {
+        Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Extract(_) | Op::Compose | Op::Splat => 0,
+        op if op.is_read() => TEXEL,
+        _ => 1,
+    };
+    start.graph.nodes.iter().map(|node| cost(&node.op)).sum()
+}

@@ -1,0 +1,4 @@
+pub fn k(color: &Texture<Vec4>) -> Texture<Vec4> {
+    let rows: Texture<Vec4> = draw(color.size(), |pixel| color.load(pixel) + nothing);
+    draw(color.size(), |pixel| rows.load(pixel.x))
+}

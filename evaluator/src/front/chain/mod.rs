@@ -1,0 +1,168 @@
+//! Chains: functions of the kernel language whose calls of `draw` are passes.
+//!
+//! A chain is walked as it would run, on sizes, pictures, integers and options. Each call of `draw` that is reached becomes a
+//! kernel, made of the closure and of what it mentions. The text of the file stays: its tokens keep their places, so that errors
+//! in a pass name them. Other values of the chain are computed by each pass that mentions them.
+
+mod capture;
+mod control;
+mod draw;
+mod item;
+mod lists;
+mod numbers;
+mod read;
+mod rule;
+mod signature;
+mod state;
+mod statements;
+mod syntax;
+mod value;
+mod values;
+mod walk;
+
+use super::{Parsed, add_library, collect_items, purposes, read_syntax, token_span};
+use crate::diagnostic::{Code, Diagnostic, Errors, File, Span};
+use ::std::sync::Arc;
+use straightline_kernels::OptionValues;
+use straightline_manifest::Format;
+use straightline_manifest::chain::SizeRule;
+
+pub use read::chain_of;
+pub use signature::picture_type;
+
+/// Most passes of a chain.
+const MOST_PASSES: usize = 256;
+
+/// Most statements and iterations that reading a chain takes.
+const MOST_STEPS: usize = 100_000;
+
+/// A filter of several passes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    /// Name of its function.
+    pub name: String,
+    /// Place of the name.
+    pub span: Span,
+    /// First sentence of the function's documentation.
+    pub summary: String,
+    /// Textures, samplers and buffers that it takes.
+    pub inputs: Vec<String>,
+    /// Pictures in the order in which they are drawn; of each, the pass of the same index.
+    pub pictures: Vec<Picture>,
+    /// Passes in order.
+    pub passes: Vec<Pass>,
+    /// Indices of the pictures that the function returns.
+    pub results: Vec<usize>,
+}
+
+/// A picture that a pass draws.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Name of its variable, with a number where several have it.
+    pub name: String,
+    /// Its size.
+    pub size: SizeRule,
+    /// Format that an attribute asks for.
+    pub format: Option<Format>,
+    /// Place of the call of `draw`.
+    pub span: Span,
+}
+
+/// A pass: the kernel that a call of `draw` has become.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    /// Name of the kernel. Passes with the same text share it.
+    pub entry: String,
+    /// Parameters that are textures, samplers or buffers, with what each reads.
+    pub reads: Vec<(String, Source)>,
+    /// `true` if it depends on the chain's options.
+    pub has_options: bool,
+}
+
+/// Origin of an input of a pass.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Source {
+    /// An input of the chain, by name.
+    Input(String),
+    /// A picture, by index.
+    Picture(usize),
+}
+
+/// Reads the chain `name` with these values of its options.
+///
+/// # Errors
+///
+/// A file that is not Rust, and every statement of the function that no chain has.
+pub fn read_chain(files: &Arc<Vec<File>>, name: &str, options: &OptionValues) -> Result<Chain, Errors> {
+    let syntax = read_syntax(files)?;
+    let walked = walk::walk_chain(&syntax, name, options);
+    walked
+        .map(|walked| walked.chain)
+        .map_err(|found| Errors::new(found, files))
+}
+
+/// Reads all files and lowers what a pass reaches, by the name of its kernel.
+///
+/// # Errors
+///
+/// As of [`read_chain`] and [`parse`](super::parse).
+pub fn parse_pass(files: &Arc<Vec<File>>, chain: &str, options: &OptionValues, entry: &str) -> Result<Parsed, Errors> {
+    let syntax = read_syntax(files)?;
+    let walked = walk::walk_chain(&syntax, chain, options).map_err(|found| Errors::new(found, files))?;
+    let kernel = walked.kernels.into_iter().find(|kernel| kernel.sig.ident == entry);
+    lower_in_place(files, syntax, chain, kernel, entry)
+}
+
+/// Reads all files and lowers a kernel that has nothing but the options of a chain, so that they can be described.
+///
+/// # Errors
+///
+/// As of [`parse`](super::parse).
+pub fn parse_options(files: &Arc<Vec<File>>, chain: &str) -> Result<Parsed, Errors> {
+    let syntax = read_syntax(files)?;
+    let stub = read::find_function(&syntax, chain).map(|(_, function)| item::options_only(function));
+    lower_in_place(files, syntax, chain, stub, chain)
+}
+
+/// Lowers `kernel`, which stands in the files in place of the chain.
+fn lower_in_place(
+    files: &Arc<Vec<File>>,
+    mut syntax: Vec<(u32, syn::File)>,
+    chain: &str,
+    kernel: Option<syn::ItemFn>,
+    entry: &str,
+) -> Result<Parsed, Errors> {
+    let Some(kernel) = kernel else {
+        let what = format!("the files have no chain `{chain}` with a pass `{entry}`");
+        return Err(Errors::from_diagnostic(Diagnostic::new(Code::UnknownKernel, what)));
+    };
+    let mut kernel = Some(kernel);
+    for (_, parsed) in &mut syntax {
+        let own = parsed
+            .items
+            .iter_mut()
+            .find(|item| matches!(item, syn::Item::Fn(function) if function.sig.ident == chain));
+        if let (Some(own), true) = (own, kernel.is_some()) {
+            *own = syn::Item::Fn(kernel.take().expect("just looked at"));
+        }
+        // Functions that draw are chains too, and no kernel calls one.
+        parsed.items.retain(|item| match item {
+            syn::Item::Fn(function) => function.sig.ident == entry || !signature::returns_pictures(&function.sig),
+            _ => true,
+        });
+    }
+    let mut items = collect_items(&mut syntax);
+    add_library(&mut items, files)?;
+    let lowered = items.lower_reached(entry);
+    let mut parsed = lowered.map_err(|found| Errors::new(found, files))?;
+    parsed.library.purposes = purposes::function_purposes(&parsed.library);
+    Ok(parsed)
+}
+
+/// A refusal at a place.
+fn refused(file: u32, at: &impl syn::spanned::Spanned, what: impl Into<String>, help: &str) -> Box<Diagnostic> {
+    let error = Diagnostic::error_at(Code::ChainForm, token_span(file, at.span()), what)
+        .label("in a chain")
+        .help(help);
+    Box::new(error)
+}
