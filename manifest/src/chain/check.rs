@@ -4,6 +4,9 @@ use super::{CHAIN_SCHEMA, ChainPlan, PicturePlan};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
+/// Most inputs, pictures, and passes of a chain: looking up names takes time that grows with the square.
+const MOST: usize = 1024;
+
 /// A plan of a chain that contradicts itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadChain {
@@ -29,8 +32,8 @@ struct Life {
 }
 
 impl ChainPlan {
-    /// Checks that the chain can run: every name is known and stands for one thing, pictures are written once and read later,
-    /// rules yield sizes, and pictures that share memory fit it and are never needed together.
+    /// Checks that the chain can run: every name is known and stands for one thing, pictures are written once and read
+    /// later, rules yield sizes, and pictures that share memory fit it and are never needed together.
     ///
     /// # Errors
     ///
@@ -39,6 +42,14 @@ impl ChainPlan {
         if self.schema != CHAIN_SCHEMA {
             let problem = format!("{}, but this reader knows schema {CHAIN_SCHEMA}", self.schema);
             return Err(bad("schema".to_owned(), problem));
+        }
+        let counts = [
+            ("inputs", self.inputs.len()),
+            ("pictures", self.pictures.len()),
+            ("passes", self.passes.len()),
+        ];
+        if let Some((place, count)) = counts.into_iter().find(|(_, count)| *count > MOST) {
+            return Err(bad(place.to_owned(), format!("{count}, more than {MOST}")));
         }
         let inputs = self.check_names()?;
         self.check_rules(&inputs)?;
@@ -223,8 +234,12 @@ mod tests {
     #[test]
     fn each_contradiction_is_named() {
         type Break = fn(&mut ChainPlan);
-        let cases: [(Break, &str); 19] = [
+        let cases: [(Break, &str); 20] = [
             (|c| c.schema = 2, "schema: 2, but this reader knows schema 1"),
+            (
+                |c| c.inputs = vec!["x".into(); 1025].into(),
+                "inputs: 1025, more than 1024",
+            ),
             (
                 |c| c.inputs.to_mut().push("color".into()),
                 "input `color`: is listed twice",
@@ -297,7 +312,7 @@ mod tests {
         ];
         for (number, (change, wanted)) in cases.into_iter().enumerate() {
             let mut chain = good();
-            if number == 18 {
+            if number == 19 {
                 // So that there is a result all the same.
                 chain.pictures.to_mut().push(picture("last", 1, None));
                 chain.passes.to_mut().push(pass(&["out"], &["last"]));

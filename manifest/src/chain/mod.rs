@@ -40,12 +40,12 @@ pub struct ChainPlan {
 pub struct PicturePlan {
     /// Name: that of the variable that holds it, with a number where several have it.
     pub name: Text,
-    /// Its width and height.
+    /// Width and height.
     pub size: SizeRule,
     /// Format of its texels.
     pub format: Format,
-    /// Number of the texture that holds it. Pictures of one number have one size and format, and are never needed at the same
-    /// time. `None` for a result of the chain, which the caller owns.
+    /// Number of the texture that holds it. Pictures of one number have one size and format, and are never needed at
+    /// the same time. `None` for a result of the chain, which the caller owns.
     #[cfg_attr(feature = "json", serde(default, skip_serializing_if = "Option::is_none"))]
     pub memory: Option<u32>,
 }
@@ -136,7 +136,8 @@ impl SizeRule {
     ///
     /// # Errors
     ///
-    /// An input without a size; terms that leave no size or several on the stack, or are too many. The generator writes none such.
+    /// An input without a size; terms that leave no size or several on the stack, or are too many. The generator writes
+    /// none such.
     pub fn evaluate(&self, size_of: &dyn Fn(&str) -> Option<[u32; 2]>) -> Result<[u32; 2], BadRule> {
         if self.0.len() > MOST_TERMS {
             return Err(BadRule(format!("{} terms, more than {MOST_TERMS}", self.0.len())));
@@ -193,7 +194,8 @@ impl fmt::Display for SizeRule {
 
 #[cfg(feature = "json")]
 impl ChainPlan {
-    /// Reads a chain from JSON, refusing other schemas and unknown fields. It may contradict itself: see [`check`](Self::check).
+    /// Reads a chain from JSON, refusing other schemas and unknown fields. It may contradict itself: see
+    /// [`check`](Self::check).
     ///
     /// # Errors
     ///

@@ -10,8 +10,8 @@ use std::sync::Arc;
 use wgpu::TextureView;
 
 impl Chain {
-    /// Computes the sizes of all pictures, results included, for these inputs: in the order in which they are written, by name.
-    /// A target that the caller is to create has the size of the result.
+    /// Computes the sizes of all pictures, results included, for these inputs: in the order in which they are written,
+    /// by name. A target that the caller is to create has the size of the result.
     ///
     /// # Errors
     ///
@@ -25,18 +25,18 @@ impl Chain {
         Ok(names.zip(sizes).collect())
     }
 
-    /// Binds the chain to its inputs and targets, and creates the textures between its passes. `inputs` and `targets` are given by
-    /// name as for [`Pass::bind`](crate::Pass::bind); of a chain with one result, `targets` is `&view`. Targets have the sizes that
-    /// [`sizes`](Self::sizes) returns. Uniforms start from their defaults.
+    /// Binds the chain to its inputs and targets, and creates the textures between its passes. `inputs` and `targets`
+    /// are given by name as for [`Pass::bind`](crate::Pass::bind); of a chain with one result, `targets` is `&view`.
+    /// Targets have the sizes that [`sizes`](Self::sizes) returns. Uniforms start from their defaults.
     ///
-    /// An input can be a target too, if every pass that reads it runs before the one that writes it. A result that later passes
-    /// read needs the usage [`TEXTURE_BINDING`](wgpu::TextureUsages::TEXTURE_BINDING) besides.
+    /// An input can be a target too, if every pass that reads it runs before the one that writes it. A result that
+    /// later passes read needs the usage [`TEXTURE_BINDING`](wgpu::TextureUsages::TEXTURE_BINDING) besides.
     ///
     /// # Errors
     ///
-    /// Those of [`Pass::bind`](crate::Pass::bind), for the chain's inputs and targets. [`Error::Chain`] if a picture is larger than
-    /// the device allows, if a target has another size than the chain writes, or if a pass cannot be bound: the problem has the
-    /// name of the pass and its error.
+    /// Those of [`Pass::bind`](crate::Pass::bind), for the chain's inputs and targets. [`Error::Chain`] if a picture is
+    /// larger than the device allows, if a target has another size than the chain writes, or if a pass cannot be bound:
+    /// the problem has the name of the pass and its error.
     pub fn bind<'r, 't, R: Into<Resource<'r>> + Copy>(
         &self,
         inputs: &[(&str, R)],
@@ -45,13 +45,13 @@ impl Chain {
         self.bind_with(inputs, targets, &BindOptions::default())
     }
 
-    /// Binds as [`bind`](Self::bind), with other uniforms than the defaults. A value goes to every pass that has a uniform of its
-    /// name.
+    /// Binds as [`bind`](Self::bind), with other uniforms than the defaults. A value goes to every pass that has a
+    /// uniform of its name.
     ///
     /// # Errors
     ///
-    /// Those of [`bind`](Self::bind); [`Error::UnknownUniform`] and [`Error::UniformType`]; [`Error::Chain`] for a region and for
-    /// uniforms as bytes, which only a pass has.
+    /// Those of [`bind`](Self::bind); [`Error::UnknownUniform`] and [`Error::UniformType`]; [`Error::Chain`] for a
+    /// region and for uniforms as bytes, which only a pass has.
     pub fn bind_with<'r, 't, R: Into<Resource<'r>> + Copy>(
         &self,
         inputs: &[(&str, R)],
@@ -61,8 +61,9 @@ impl Chain {
         self.bind_reusing(&self.arrange_inputs(inputs)?, targets.into(), options, Memory::new())
     }
 
-    /// Binds as [`bind_with`](Self::bind_with), and takes those textures of `old` whose size is the same. The others are freed
-    /// before new ones are created. Nothing else of `old` is used: uniforms start again. An `old` of another chain is dropped.
+    /// Binds as [`bind_with`](Self::bind_with), and takes those textures of `old` whose size is the same. The others
+    /// are freed before new ones are created. Nothing else of `old` is used: uniforms start again. An `old` of another
+    /// chain is dropped.
     ///
     /// # Errors
     ///
@@ -196,8 +197,8 @@ impl Chain {
         Ok(())
     }
 
-    /// Refuses an input that the chain has overwritten when a pass reads it. Only wgpu knows which part of a texture a view shows;
-    /// of a texture of one image it is all.
+    /// Refuses an input that the chain has overwritten when a pass reads it. Only wgpu knows which part of a texture a
+    /// view shows; of a texture of one image it is all.
     fn check_overwritten(&self, resources: &[Resource<'_>], views: &[TextureView]) -> Result<(), Error> {
         let mut written: Vec<&TextureView> = Vec::new();
         for step in &self.recipe.steps {

@@ -9,7 +9,8 @@ use wgpu::{CommandEncoder, Queue, TextureView};
 /// A [`Chain`](crate::Chain) with its inputs, targets, uniforms and the textures between its passes: made by
 /// [`Chain::bind`](crate::Chain::bind), and recorded any number of times.
 ///
-/// As a [`Bound`], it keeps its resources alive, has no lifetime, can be shared between threads, and outlives the chain.
+/// As a [`Bound`], it keeps its resources alive, has no lifetime, can be shared between threads, and outlives the
+/// chain.
 #[derive(Debug)]
 pub struct BoundChain {
     pub(super) recipe: Arc<Recipe>,
@@ -31,15 +32,16 @@ impl BoundChain {
         self.recipe.plan.passes.iter().map(|pass| &*pass.name)
     }
 
-    /// Records all passes into `encoder`, which is of the same device. It cannot fail and checks nothing; of its own it allocates
-    /// nothing.
+    /// Records all passes into `encoder`, which is of the same device. It cannot fail and checks nothing; of its own it
+    /// allocates nothing.
     pub fn encode(&self, encoder: &mut CommandEncoder) {
         for pass in &self.passes {
             pass.encode(encoder);
         }
     }
 
-    /// [`encode`](Self::encode), timed on the GPU: each pass is a span of `timer`, in the order of [`passes`](Self::passes).
+    /// [`encode`](Self::encode), timed on the GPU: each pass is a span of `timer`, in the order of
+    /// [`passes`](Self::passes).
     ///
     /// # Errors
     ///
@@ -52,8 +54,9 @@ impl BoundChain {
         Ok(())
     }
 
-    /// Records the passes up to the one that writes `picture`, and returns its view: after a submission it holds the picture, and
-    /// nothing else that shares its texture. `None` if the chain has no such picture; nothing has been recorded then.
+    /// Records the passes up to the one that writes `picture`, and returns its view: after a submission it holds the
+    /// picture, and nothing else that shares its texture. `None` if the chain has no such picture; nothing has been
+    /// recorded then.
     pub fn encode_until(&self, encoder: &mut CommandEncoder, picture: &str) -> Option<&TextureView> {
         let writes = |pass: &straightline_manifest::chain::PassPlan| pass.writes.iter().any(|name| name == picture);
         let last = self.recipe.plan.passes.iter().position(writes)?;
@@ -68,8 +71,8 @@ impl BoundChain {
     ///
     /// # Errors
     ///
-    /// [`Error::UnknownUniform`] if no pass has it, or [`Error::UniformType`] for a value of another type. Nothing has been
-    /// written then.
+    /// [`Error::UnknownUniform`] if no pass has it, or [`Error::UniformType`] for a value of another type. Nothing has
+    /// been written then.
     pub fn write_uniform(&self, queue: &Queue, name: &str, value: impl Into<UniformValue>) -> Result<(), Error> {
         let value = value.into();
         let uniform = self.recipe.find_uniform(name, value.ty())?;
@@ -79,7 +82,8 @@ impl BoundChain {
         Ok(())
     }
 
-    /// The view of a picture, or of a target by the name of its result. The chain's own textures can be sampled and copied from.
+    /// The view of a picture, or of a target by the name of its result. The chain's own textures can be sampled and
+    /// copied from.
     ///
     /// Pictures that share a texture have views of the same one: after a frame it holds the last of them.
     /// [`encode_until`](Self::encode_until) stops at an earlier one.

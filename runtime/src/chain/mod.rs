@@ -18,8 +18,8 @@ pub use bound::BoundChain;
 
 /// Passes that run one after another, such as the sizes of a bloom or the three passes of SMAA, on one device.
 ///
-/// Making one compiles its shaders, each once. [`bind`](Self::bind) creates the textures between the passes, in sizes that
-/// follow from the inputs. A chain can be shared between threads.
+/// Making one compiles its shaders, each once. [`bind`](Self::bind) creates the textures between the passes, in sizes
+/// that follow from the inputs. A chain can be shared between threads.
 ///
 /// ```no_run
 /// use straightline_runtime::{BindOptions, BoundChain, Chain, ChainShaders, Error, PassOptions, wgpu};
@@ -60,7 +60,7 @@ pub use bound::BoundChain;
 pub struct Chain {
     device: Device,
     recipe: Arc<Recipe>,
-    /// One for each shader and the formats that it writes.
+    /// A pass for each shader and the formats that it writes.
     passes: Vec<Pass>,
     /// Number in `passes` of each pass of the plan.
     pass_numbers: Vec<usize>,
@@ -103,14 +103,14 @@ impl Chain {
         Self::from_shaders(device, &shaders.plan, shaders.shaders, options)
     }
 
-    /// A chain of `plan`, whose passes name the `shaders`: each exactly once. `options` apply to the chain's results: formats are
-    /// those of targets that the caller gives, by the names of the results.
+    /// A chain of `plan`, whose passes name the `shaders`: each exactly once. `options` apply to the chain's results:
+    /// formats are those of targets that the caller gives, by the names of the results.
     ///
     /// # Errors
     ///
-    /// [`Error::Chain`] if the plan contradicts itself or does not fit the shaders, or if a pass cannot be made: the problem has
-    /// the name of the pass and its error. [`Error::TargetFormat`] for the format of a result that the chain does not have;
-    /// [`Error::DeviceLost`] and [`Error::OutOfMemory`].
+    /// [`Error::Chain`] if the plan contradicts itself or does not fit the shaders, or if a pass cannot be made: the
+    /// problem has the name of the pass and its error. [`Error::TargetFormat`] for the format of a result that the
+    /// chain does not have; [`Error::DeviceLost`] and [`Error::OutOfMemory`].
     pub fn from_shaders(
         device: &Device,
         plan: &ChainPlan,

@@ -35,7 +35,7 @@ pub(super) struct Step {
     pub(super) computes: bool,
 }
 
-/// What a pass reads, by its number in the plan.
+/// A resource or picture that a pass reads, by its number in the plan.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
     Input(usize),
@@ -124,8 +124,8 @@ impl Recipe {
         }
     }
 
-    /// Puts the names of the chain to an error of `pass`, which is in those of its shader. A lost device has nothing to do with
-    /// a pass.
+    /// Puts the names of the chain to an error of `pass`, which is in those of its shader. A lost device has nothing to
+    /// do with a pass.
     pub(super) fn name_pass(&self, pass: &PassPlan, shader: &Plan, error: Error) -> Error {
         let read = |name: &str| {
             let read = pass.reads.iter().find(|read| read.name == name && read.from != name)?;

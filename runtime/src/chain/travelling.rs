@@ -7,8 +7,8 @@ use straightline_manifest::chain::ChainPlan;
 use wgpu::Device;
 
 impl Chain {
-    /// The chain that `chain_json` describes. `files` returns the manifest and the WGSL of a shader by its name, and is called
-    /// once for each.
+    /// The chain that `chain_json` describes. `files` returns the manifest and the WGSL of a shader by its name, and is
+    /// called once for each.
     ///
     /// ```no_run
     /// # use straightline_runtime::{Chain, Error, PassOptions, wgpu};
@@ -22,8 +22,8 @@ impl Chain {
     ///
     /// # Errors
     ///
-    /// [`Error::Manifest`] if `chain_json` is not a chain or of another schema; [`Error::Chain`] for a shader without files; those
-    /// of [`Shader::from_json`] and of [`from_shaders`](Self::from_shaders).
+    /// [`Error::Manifest`] if `chain_json` is not a chain or of another schema; [`Error::Chain`] for a shader without
+    /// files; those of [`Shader::from_json`] and of [`from_shaders`](Self::from_shaders).
     pub fn from_json<M: AsRef<str>, W: AsRef<str>>(
         device: &Device,
         chain_json: &str,

@@ -19,7 +19,7 @@ pub enum ChainProblem {
     Pass {
         /// The pass.
         pass: String,
-        /// What the pass does with the resource at fault, such as ``, which reads picture `half` as `source` ``. May be empty.
+        /// Use of the resource at fault, such as ``, which reads picture `half` as `source` ``. May be empty.
         role: String,
         /// Error of the pass, in the names of its shader.
         error: Box<Error>,

@@ -394,7 +394,7 @@ fn each_pass_is_timed() {
 fn sizes_follow_several_terms() {
     let gpu = Gpu::new();
     let mut plan = glow();
-    // One more than half: `small` is read where it is there.
+    // A column more than half.
     let mut terms = color_size(Some((SizeOp::Div, 2))).0.into_owned();
     terms.extend([SizeTerm::Number([1, 0]), SizeTerm::Apply(SizeOp::Add)]);
     plan.pictures.to_mut()[0].size = SizeRule(terms.into());

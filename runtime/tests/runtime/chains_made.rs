@@ -161,7 +161,7 @@ fn a_chain_is_a_constant() {
     let color = view(&gpu.upload([8, 4], 1, &ramp([8, 4], 1)));
     let target = gpu.target([2, 1]);
     let bound = is_shared(chain.bind(&[("color", &color)], &view(&target)).expect("to bind"));
-    // What is bound outlives the chain.
+    // The bound chain outlives the chain.
     drop(chain);
     run(&gpu, &bound);
     assert_eq!(gpu.download(&target), [ramp([8, 4], 1)[0], ramp([8, 4], 1)[4]]);
