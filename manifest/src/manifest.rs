@@ -1,5 +1,6 @@
 //! The manifest: everything that a host must know of one shader, as JSON.
 
+use crate::chain::CHAIN_SCHEMA;
 use crate::{Binding, Form, LanguageBinding, Origin, Output, Precision, Stage, Tuned, ValueType, output};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -175,6 +176,12 @@ pub enum Error {
     #[error("manifest schema {found}, but this reader knows schema {SCHEMA}: generate the shader again")]
     Schema {
         /// The schema that the manifest states.
+        found: u32,
+    },
+    /// A chain, made by a generator of another time.
+    #[error("chain schema {found}, but this reader knows schema {CHAIN_SCHEMA}: generate the chain again")]
+    ChainSchema {
+        /// The schema that the chain states.
         found: u32,
     },
 }

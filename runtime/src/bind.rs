@@ -80,7 +80,8 @@ impl Pass {
         options: &BindOptions<'_>,
     ) -> Result<Bound, Error> {
         let inputs: Vec<(&str, Resource<'r>)> = inputs.iter().map(|(name, input)| (*name, (*input).into())).collect();
-        let targets = targets.into().arrange_targets(&self.plan)?;
+        let outputs: Vec<&str> = self.plan.outputs.iter().map(|output| &*output.name).collect();
+        let targets = targets.into().arrange_targets(&self.plan.kernel, &outputs)?;
         self.loss_probe
             .check(&self.device, &format!("binding `{}`", self.plan.kernel))?;
         let resources = arrange_inputs(&self.plan, &inputs)?;

@@ -60,6 +60,7 @@
 
 mod bind;
 mod bound;
+mod chain;
 mod draw;
 mod error;
 mod guard;
@@ -82,8 +83,9 @@ mod travelling;
 mod uniforms;
 
 pub use bound::Bound;
+pub use chain::{BoundChain, Chain, ChainShaders};
 pub use draw::{BoundDraw, Draw, DrawOptions, VertexShader};
-pub use error::{BufferProblem, Error, Names, SamplerProblem, ViewProblem};
+pub use error::{BufferProblem, ChainProblem, Error, Names, SamplerProblem, ViewProblem};
 pub use options::{BindOptions, PassOptions};
 pub use pass::Pass;
 pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quads};

@@ -2,6 +2,9 @@
 
 pub use crate::shader::{Loops, LoopsEnd};
 pub use std::borrow::Cow::Borrowed;
+pub use straightline_manifest::chain::{
+    CHAIN_SCHEMA, ChainPlan, PassPlan, PicturePlan, ReadPlan, SizeOp, SizeRule, SizeTerm,
+};
 pub use straightline_manifest::plan::{
     BufferPlan, FieldPlan, InputKind, InputPlan, OutputPlan, PartPlan, Plan, StagePlan, TexturePlan, UniformPlan,
     VaryingPlan,

@@ -1,7 +1,6 @@
 //! Targets that a pass writes.
 
 use crate::error::{Error, Names};
-use crate::plan::Plan;
 use wgpu::TextureView;
 
 /// The textures that a pass writes, all of one size: a view where the kernel gives one value, or views by the names of the
@@ -36,45 +35,39 @@ impl<'t, const N: usize> From<&[(&'t str, &'t TextureView); N]> for Targets<'t> 
 }
 
 impl<'t> Targets<'t> {
-    /// The targets in the order of the plan's outputs: each exactly once, and nothing else.
-    pub(crate) fn arrange_targets(self, plan: &Plan) -> Result<Vec<&'t TextureView>, Error> {
-        let kernel = || plan.kernel.to_string();
-        let known = || {
-            plan.outputs
-                .iter()
-                .map(|output| output.name.as_ref())
-                .collect::<Names>()
-        };
+    /// The targets for the `outputs` of `kernel`, in that order: each exactly once, and nothing else.
+    pub(crate) fn arrange_targets(self, kernel: &str, outputs: &[&str]) -> Result<Vec<&'t TextureView>, Error> {
+        let known = || outputs.iter().copied().collect::<Names>();
         let views = match self.0 {
-            Given::One(view) if plan.outputs.len() == 1 => return Ok(vec![view]),
+            Given::One(view) if outputs.len() == 1 => return Ok(vec![view]),
             Given::One(_) => {
                 return Err(Error::TargetNames {
-                    kernel: kernel(),
+                    kernel: kernel.to_owned(),
                     known: known(),
                 });
             }
             Given::Named(views) => views,
         };
         for (i, (name, _)) in views.iter().enumerate() {
-            if plan.outputs.iter().all(|output| output.name != *name) {
+            if !outputs.contains(name) {
                 return Err(Error::UnknownTarget {
-                    kernel: kernel(),
+                    kernel: kernel.to_owned(),
                     name: (*name).to_owned(),
                     known: known(),
                 });
             }
             if views[..i].iter().any(|(earlier, _)| earlier == name) {
                 return Err(Error::DuplicateTarget {
-                    kernel: kernel(),
+                    kernel: kernel.to_owned(),
                     name: (*name).to_owned(),
                 });
             }
         }
         let view = |name: &str| views.iter().find(|(known, _)| *known == name).map(|(_, view)| *view);
-        let ordered = plan.outputs.iter().map(|output| {
-            view(&output.name).ok_or_else(|| Error::MissingTarget {
-                kernel: kernel(),
-                name: output.name.to_string(),
+        let ordered = outputs.iter().map(|output| {
+            view(output).ok_or_else(|| Error::MissingTarget {
+                kernel: kernel.to_owned(),
+                name: (*output).to_owned(),
                 known: known(),
             })
         });

@@ -125,6 +125,16 @@ impl Timer {
         })
     }
 
+    /// Checks that there is room for `spans` more.
+    pub(crate) fn check_room(&self, spans: usize) -> Result<(), Error> {
+        match spans <= (self.capacity - self.used) as usize {
+            true => Ok(()),
+            false => Err(Error::TimerFull {
+                capacity: self.capacity,
+            }),
+        }
+    }
+
     /// The next span, for one pass. It must be recorded: a span that is taken and never written is an error to read.
     ///
     /// # Errors

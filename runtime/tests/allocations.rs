@@ -3,6 +3,7 @@
 mod common;
 
 use allocation_counter::{AllocationInfo, measure};
+use common::chains::{make_of, pass, picture, plan, sizes};
 use common::{COPY, Fixture, Gpu, STAGES, Stage, view};
 use straightline_runtime::{Bound, Draw, DrawOptions, Pass, wgpu};
 use wgpu::{TextureFormat, TextureUsages, TextureView};
@@ -182,4 +183,35 @@ fn a_frame_allocates_what_wgpu_does() {
         |encoder| handwritten.encode(encoder),
         "drawn",
     );
+}
+
+#[test]
+fn a_frame_of_a_chain_allocates_what_its_passes_do() {
+    let gpu = Gpu::new();
+    let color = view(&gpu.texture(SIZE, 1, TextureFormat::Rgba8Unorm, TextureUsages::TEXTURE_BINDING));
+    let [full, _] = sizes();
+    let plan = plan(
+        &["color"],
+        vec![picture("copy", &full, Some(0)), picture("out", &full, None)],
+        vec![
+            pass("copy", &[("color", "color")], &["copy"]),
+            pass("copy", &[("color", "copy")], &["out"]),
+        ],
+    );
+    for stage in STAGES {
+        let chain = make_of(&gpu, &plan, &[&COPY], stage).expect("a chain");
+        let target = view(&gpu.target(SIZE));
+        let bound = chain.bind(&[("color", &color)], &target).expect("to bind");
+        let copy = bound.picture("copy").expect("a picture");
+        let handwritten = [
+            Handwritten::new(&gpu, stage, &color, copy),
+            Handwritten::new(&gpu, stage, copy, &target),
+        ];
+        same(
+            &gpu,
+            |encoder| bound.encode(encoder),
+            |encoder| handwritten.iter().for_each(|pass| pass.encode(encoder)),
+            stage.name(),
+        );
+    }
 }

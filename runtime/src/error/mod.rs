@@ -1,11 +1,14 @@
 //! All errors, as values that name the item, the place and the remedy.
 
+mod chain;
+mod names;
 mod problem;
 
 use crate::{Region, ResourceKind};
-use std::fmt;
 use wgpu::TextureFormat;
 
+pub use chain::ChainProblem;
+pub use names::Names;
 pub use problem::{BufferProblem, SamplerProblem, ViewProblem};
 
 /// Reason why a pass could not be created, set or recorded.
@@ -292,6 +295,15 @@ pub enum Error {
         description: String,
     },
 
+    /// A chain could not be made, or not be bound as asked.
+    #[error("chain `{chain}`: {problem}")]
+    Chain {
+        /// The chain's name.
+        chain: String,
+        /// Description of the problem.
+        problem: ChainProblem,
+    },
+
     /// The shader cannot filter this rectangle.
     #[error("`{kernel}` cannot filter the region {region}: {problem}")]
     Region {
@@ -397,26 +409,4 @@ pub enum Error {
         /// wgpu's message.
         description: String,
     },
-}
-
-/// A list of names for a message: `` `a`, `b` and `c` ``, or `none`.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Names(pub Vec<String>);
-
-impl<'a> FromIterator<&'a str> for Names {
-    fn from_iter<I: IntoIterator<Item = &'a str>>(names: I) -> Self {
-        Names(names.into_iter().map(str::to_owned).collect())
-    }
-}
-
-impl fmt::Display for Names {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some((last, rest)) = self.0.split_last() else {
-            return f.write_str("none");
-        };
-        for (i, name) in rest.iter().enumerate() {
-            write!(f, "{}`{name}`", if i == 0 { "" } else { ", " })?;
-        }
-        write!(f, "{}`{last}`", if rest.is_empty() { "" } else { " and " })
-    }
 }

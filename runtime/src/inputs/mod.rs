@@ -11,7 +11,7 @@ use texture::check_texture;
 use wgpu::{Buffer, BufferUsages, Device, Features, TextureView};
 
 pub(crate) use target::check_targets;
-pub(crate) use texture::{is_one_image, texture_size};
+pub(crate) use texture::{check_readable, is_one_image, texture_size};
 
 /// Bytes of which the size of a storage binding must be a multiple, by WebGPU.
 const SIZE_ALIGNMENT: u64 = 4;
@@ -42,41 +42,55 @@ impl Abilities {
 }
 
 /// The resources for `plan.inputs`, in that order: each exactly once, of its kind, and nothing else.
-pub(crate) fn arrange_inputs<'r>(plan: &Plan, inputs: &[(&str, Resource<'r>)]) -> Result<Vec<Resource<'r>>, Error> {
-    let kernel = || plan.kernel.to_string();
-    let known = || plan.inputs.iter().map(|input| input.name.as_ref()).collect::<Names>();
-    for (i, (name, _)) in inputs.iter().enumerate() {
-        if plan.inputs.iter().all(|input| input.name != *name) {
+pub(crate) fn arrange_inputs<'r>(plan: &Plan, given: &[(&str, Resource<'r>)]) -> Result<Vec<Resource<'r>>, Error> {
+    let kind = |input: &InputPlan| Some(ResourceKind::of_input(input.kind));
+    let needed: Vec<_> = plan.inputs.iter().map(|input| (&*input.name, kind(input))).collect();
+    arrange_resources(&plan.kernel, &needed, given)
+}
+
+/// The resources for the inputs `needed` of `kernel`, in that order: each exactly once, of its kind if that is known, and
+/// nothing else.
+pub(crate) fn arrange_resources<'r>(
+    kernel: &str,
+    needed: &[(&str, Option<ResourceKind>)],
+    given: &[(&str, Resource<'r>)],
+) -> Result<Vec<Resource<'r>>, Error> {
+    let known = || needed.iter().map(|(name, _)| *name).collect::<Names>();
+    for (i, (name, _)) in given.iter().enumerate() {
+        if needed.iter().all(|(needed, _)| needed != name) {
             return Err(Error::UnknownInput {
-                kernel: kernel(),
+                kernel: kernel.to_owned(),
                 name: (*name).to_owned(),
                 known: known(),
             });
         }
-        if inputs[..i].iter().any(|(earlier, _)| earlier == name) {
+        if given[..i].iter().any(|(earlier, _)| earlier == name) {
             return Err(Error::DuplicateInput {
-                kernel: kernel(),
+                kernel: kernel.to_owned(),
                 name: (*name).to_owned(),
             });
         }
     }
-    plan.inputs
-        .iter()
-        .map(|input| match inputs.iter().find(|(name, _)| *name == input.name) {
-            Some((_, resource)) if resource.kind() == ResourceKind::of_input(input.kind) => Ok(*resource),
-            Some((_, resource)) => Err(Error::InputKind {
-                kernel: kernel(),
-                name: input.name.to_string(),
-                needed: ResourceKind::of_input(input.kind),
+    let arranged = needed.iter().map(|(name, kind)| {
+        let (_, resource) = given
+            .iter()
+            .find(|(given, _)| given == name)
+            .ok_or_else(|| Error::MissingInput {
+                kernel: kernel.to_owned(),
+                name: (*name).to_owned(),
+                known: known(),
+            })?;
+        match kind {
+            Some(kind) if *kind != resource.kind() => Err(Error::InputKind {
+                kernel: kernel.to_owned(),
+                name: (*name).to_owned(),
+                needed: *kind,
                 given: resource.kind(),
             }),
-            None => Err(Error::MissingInput {
-                kernel: kernel(),
-                name: input.name.to_string(),
-                known: known(),
-            }),
-        })
-        .collect()
+            _ => Ok(*resource),
+        }
+    });
+    arranged.collect()
 }
 
 /// Size of the first texture that is to have the frame's: the target's, unless a region is filtered.

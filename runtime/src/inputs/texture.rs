@@ -25,7 +25,21 @@ pub(super) fn check_texture(
             size: texture_size(texture),
         });
     }
-    let format = texture.format();
+    check_readable(plan, abilities, texture.format())?;
+    check_usage(texture, TextureUsages::TEXTURE_BINDING, "TEXTURE_BINDING")?;
+    let input = texture_size(texture);
+    match plan.extent {
+        Extent::Output if input != frame => Err(ViewProblem::Size { input, target: frame }),
+        Extent::Output | Extent::Any => Ok(()),
+    }
+}
+
+/// Checks that a texture of `format` has what the shader reads of it.
+pub(crate) fn check_readable(
+    plan: &TexturePlan,
+    abilities: &Abilities,
+    format: TextureFormat,
+) -> Result<(), ViewProblem> {
     match plan.sample_type {
         SampleType::Unfilterable => check_float(format)?,
         SampleType::Filterable => {
@@ -44,12 +58,7 @@ pub(super) fn check_texture(
         let (needed, found) = (plan.components, component_count(format));
         return Err(ViewProblem::Components { format, needed, found });
     }
-    check_usage(texture, TextureUsages::TEXTURE_BINDING, "TEXTURE_BINDING")?;
-    let input = texture_size(texture);
-    match plan.extent {
-        Extent::Output if input != frame => Err(ViewProblem::Size { input, target: frame }),
-        Extent::Output | Extent::Any => Ok(()),
-    }
+    Ok(())
 }
 
 /// Width and height in texels.

@@ -1,6 +1,7 @@
 //! A device, fixtures and pictures for the tests.
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub mod chains;
 mod kernels;
 
 use straightline_runtime::wgpu;

@@ -1,11 +1,14 @@
 //! Passes on a device: making, binding, dispatching, drawing, and every error.
 
+mod chains;
+mod chains_made;
 #[path = "../common/mod.rs"]
 mod common;
 mod dependencies;
 mod dispatch;
 mod draw;
 mod errors_binding;
+mod errors_chains;
 mod errors_making;
 mod errors_resources;
 mod errors_uniforms;

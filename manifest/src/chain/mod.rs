@@ -2,11 +2,15 @@
 //!
 //! As a [`Plan`](crate::plan::Plan), it is made of constants, or read from JSON.
 
+mod check;
+
 use crate::Format;
 use crate::plan::{List, Text};
 #[cfg(feature = "json")]
 use serde::{Deserialize, Serialize};
 use std::fmt;
+
+pub use check::BadChain;
 
 /// Version of the layout of a chain's JSON. A reader refuses a chain whose schema it does not know.
 pub const CHAIN_SCHEMA: u32 = 1;
@@ -14,7 +18,7 @@ pub const CHAIN_SCHEMA: u32 = 1;
 /// Most terms of a rule for a size.
 const MOST_TERMS: usize = 256;
 
-/// Passes in order, with the pictures that they write and read.
+/// Passes in order, with the pictures that they write and read. [`check`](Self::check) looks for contradictions.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "json", derive(Serialize, Deserialize), serde(deny_unknown_fields))]
 pub struct ChainPlan {
@@ -36,12 +40,12 @@ pub struct ChainPlan {
 pub struct PicturePlan {
     /// Name: that of the variable that holds it, with a number where several have it.
     pub name: Text,
-    /// Its width and height.
+    /// Width and height.
     pub size: SizeRule,
     /// Format of its texels.
     pub format: Format,
-    /// Number of the texture that holds it. Pictures of one number have one size and format, and are never needed at the same
-    /// time. `None` for a result of the chain, which the caller owns.
+    /// Number of the texture that holds it. Pictures of one number have one size and format, and are never needed at
+    /// the same time. `None` for a result of the chain, which the caller owns.
     #[cfg_attr(feature = "json", serde(default, skip_serializing_if = "Option::is_none"))]
     pub memory: Option<u32>,
 }
@@ -137,7 +141,8 @@ impl SizeRule {
     ///
     /// # Errors
     ///
-    /// An input without a size; terms that leave no size or several on the stack, or are too many. The generator writes none such.
+    /// An input without a size; terms that leave no size or several on the stack, or are too many. The generator writes
+    /// none such.
     pub fn evaluate(&self, size_of: &dyn Fn(&str) -> Option<[u32; 2]>) -> Result<[u32; 2], BadRule> {
         if self.0.len() > MOST_TERMS {
             return Err(BadRule(format!("{} terms, more than {MOST_TERMS}", self.0.len())));
@@ -189,6 +194,34 @@ impl fmt::Display for SizeRule {
             stack.push(text);
         }
         f.write_str(&stack.join(", "))
+    }
+}
+
+#[cfg(feature = "json")]
+impl ChainPlan {
+    /// Reads a chain from JSON, refusing other schemas and unknown fields. It may contradict itself: see
+    /// [`check`](Self::check).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Json`](crate::Error::Json) and [`Error::ChainSchema`](crate::Error::ChainSchema).
+    pub fn from_json(text: &str) -> Result<Self, crate::Error> {
+        #[derive(Deserialize)]
+        struct Head {
+            schema: u32,
+        }
+        let head: Head = serde_json::from_str(text)?;
+        match head.schema {
+            CHAIN_SCHEMA => Ok(serde_json::from_str(text)?),
+            found => Err(crate::Error::ChainSchema { found }),
+        }
+    }
+
+    /// The chain as indented JSON that ends in a newline. Equal chains give equal text.
+    pub fn to_json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("a chain is plain data");
+        text.push('\n');
+        text
     }
 }
 
@@ -252,6 +285,33 @@ mod tests {
         );
         assert_eq!(quarter.evaluate(&size_of), Ok([2, 1]));
         assert_eq!(quarter.to_string(), "(color.size() / 2 + (1, 0)) / 2");
+    }
+
+    #[cfg(feature = "json")]
+    #[test]
+    fn a_chain_reads_what_it_wrote() {
+        use super::ChainPlan;
+        let text = r#"{
+  "schema": 1,
+  "chain": "shrink",
+  "inputs": ["color"],
+  "pictures": [
+    {"name": "half", "size": [{"of": "color"}, {"number": [2, 2]}, {"apply": "div"}], "format": "rgba16float"}
+  ],
+  "passes": [{"name": "half", "shader": "down", "reads": [{"name": "big", "from": "color"}], "writes": ["half"]}]
+}"#;
+        let chain = ChainPlan::from_json(text).expect("a chain");
+        assert_eq!(chain.check(), Ok(()));
+        assert_eq!(chain.pictures[0].size.to_string(), "color.size() / 2");
+        assert_eq!(ChainPlan::from_json(&chain.to_json()).expect("a chain"), chain);
+        let refused = |text: String| ChainPlan::from_json(&text).expect_err("no chain").to_string();
+        let other = refused(text.replace("\"schema\": 1", "\"schema\": 2, \"new\": 0"));
+        assert_eq!(
+            other,
+            "chain schema 2, but this reader knows schema 1: generate the chain again"
+        );
+        let unknown = refused(text.replace("\"chain\"", "\"new\": 0, \"chain\""));
+        assert!(unknown.contains("unknown field `new`"), "{unknown}");
     }
 
     #[test]
