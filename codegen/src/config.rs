@@ -14,12 +14,13 @@
 //!
 //! The crate then says `straightline_runtime::include_shaders!();` where it wants the modules.
 
+use crate::chain::{Chain, ChainSpec, CompiledChain, EmittedChain};
 use crate::compiled::Compiled;
 use crate::emit;
 use crate::files::{self, WriteError};
 use crate::kernel::Kernel;
 use crate::spec::{Source, Target};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use straightline_evaluator::diagnostic::Errors;
@@ -49,15 +50,21 @@ pub struct Config {
     out_dir: Option<PathBuf>,
 }
 
+/// A shader or a chain ready to be written.
+enum Built {
+    Shader(Box<BuiltShader>),
+    Chain(Box<(CompiledChain, EmittedChain)>),
+}
+
 /// A shader ready to be written.
-struct Built {
+struct BuiltShader {
     name: String,
     compiled: Compiled,
     manifest: Manifest,
     files: BTreeMap<String, Vec<u8>>,
 }
 
-impl Built {
+impl BuiltShader {
     fn bindings_module(&self) -> emit::Module<'_> {
         emit::Module {
             name: &self.name,
@@ -76,8 +83,47 @@ impl Built {
     }
 }
 
-/// Builds the shader of a configuration.
+impl Built {
+    /// Name of the module.
+    fn name(&self) -> &str {
+        match self {
+            Built::Shader(shader) => &shader.name,
+            Built::Chain(chain) => &chain.0.name,
+        }
+    }
+
+    fn files(&self) -> BTreeMap<String, Vec<u8>> {
+        match self {
+            Built::Shader(shader) => shader.files.clone(),
+            Built::Chain(chain) => chain.1.named_files(),
+        }
+    }
+}
+
+/// Builds the shader of a configuration, or its chain.
 fn build(config: &KernelConfig) -> Result<Built, Error> {
+    let failed = |errors| Error::from_problem(Problem::Kernel(errors));
+    if let Source::File(path) = &config.source
+        && let Some(chain) = Chain::from_file(path, config.function.as_deref()).map_err(failed)?
+    {
+        return build_chain(config, chain).map_err(failed);
+    }
+    build_shader(config).map(|shader| Built::Shader(Box::new(shader)))
+}
+
+fn build_chain(config: &KernelConfig, chain: Chain) -> Result<Built, Errors> {
+    let chain = config
+        .sources
+        .iter()
+        .fold(Ok(chain), |chain, path| chain?.with_file(path))?;
+    let mut spec = ChainSpec::from(config.spec.clone().target(Target::Wgsl)).fuse(config.fuse.clone());
+    spec.pictures = config.pictures;
+    let compiled = chain.compile(&spec)?;
+    let emitted = compiled.emit()?;
+    Ok(Built::Chain(Box::new((compiled, emitted))))
+}
+
+fn build_shader(config: &KernelConfig) -> Result<BuiltShader, Error> {
     let kernel = match &config.source {
         Source::Builtin(name) if config.function.is_some() => {
             return Err(Error::from_problem(Problem::Function(name.clone())));
@@ -100,7 +146,7 @@ fn build(config: &KernelConfig) -> Result<Built, Error> {
         .emit(&kernel)
         .map_err(|e| Error::from_problem(Problem::Kernel(e)))?;
     let files = emitted.named_files(&name);
-    Ok(Built {
+    Ok(BuiltShader {
         name,
         compiled,
         manifest: emitted.manifest,
@@ -181,17 +227,29 @@ impl Config {
             }
         }
         let mut all = BTreeMap::new();
-        for Built { name, files, .. } in &built {
-            if all.contains_key(&format!("{name}.json")) {
-                problems.push(Problem::Twice(name.clone()));
+        let mut names = BTreeSet::new();
+        for each in &built {
+            let files = each.files();
+            // Passes of a chain have files too.
+            if !names.insert(each.name()) || files.keys().any(|file| all.contains_key(file)) {
+                problems.push(Problem::Twice(each.name().to_owned()));
             }
-            all.extend(files.clone());
+            all.extend(files);
         }
         if !problems.is_empty() {
             return Err(Error { problems });
         }
-        let modules: Vec<emit::Module<'_>> = built.iter().map(Built::bindings_module).collect();
-        let bindings = emit::render_bindings(&modules).map_err(|e| Error::from_problem(Problem::Kernel(e)))?;
+        let (mut modules, mut chains) = (Vec::new(), Vec::new());
+        for each in &built {
+            match each {
+                Built::Shader(shader) => modules.push(shader.bindings_module()),
+                Built::Chain(chain) => chains.push(emit::ChainModule {
+                    compiled: &chain.0,
+                    emitted: &chain.1,
+                }),
+            }
+        }
+        let bindings = emit::render_bindings(&modules, &chains).map_err(|e| Error::from_problem(Problem::Kernel(e)))?;
         all.insert(BINDINGS.to_owned(), bindings.into_bytes());
         files::write_all(&folder, &all)
             .map(|_| ())

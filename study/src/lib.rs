@@ -6,6 +6,7 @@
 
 pub mod baselines;
 mod builtin;
+pub mod chains;
 pub mod frame;
 pub mod hard;
 pub mod isa;

@@ -9,8 +9,8 @@ use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{Binding, BindingKind, BufferType, Element, Manifest, SamplerType, UniformField};
 use straightline_runtime::{
-    BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
-    UniformValue,
+    BindOptions, Bound, BoundChain, BoundDraw, Chain, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource,
+    Targets, UniformValue,
 };
 use wgpu::{TextureFormat, TextureUsages};
 
@@ -53,6 +53,19 @@ impl Uploaded {
     /// If they do not fit.
     pub fn bind<'t>(&self, pass: &Pass, targets: impl Into<Targets<'t>>) -> Result<Bound, RuntimeError> {
         pass.bind_with(&self.resources(), targets, &self.bind_options())
+    }
+
+    /// A chain that reads these inputs, and writes `targets`.
+    ///
+    /// # Errors
+    ///
+    /// If they do not fit.
+    pub(super) fn bind_chain(
+        &self,
+        chain: &Chain,
+        targets: &[(&str, &wgpu::TextureView)],
+    ) -> Result<BoundChain, RuntimeError> {
+        chain.bind_with(&self.resources(), targets, &self.bind_options())
     }
 
     /// A pass that reads these inputs, for a rectangle of `targets`.

@@ -1,5 +1,8 @@
 //! Running compiled kernels on images: by the interpreter in any precision, and on a GPU as the shader that is emitted.
 
+mod chain;
+mod chain_gpu;
+mod chain_work;
 mod convert;
 mod cpu;
 mod forward;
@@ -15,6 +18,7 @@ mod work;
 use glam::{UVec2, Vec4};
 use straightline_kernels::prelude::Frame;
 
+pub use chain::{interpret_chain, picture_size};
 pub use cpu::{Interpreted, find_unset_uniform, interpret_kernel, sampler_state};
 pub use forward::{Corner, Forward};
 pub use gpu::{AllWritten, Bench, Buffers, Uploaded, texture_bytes};

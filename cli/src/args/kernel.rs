@@ -4,6 +4,7 @@ use super::SettingsArgs;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 use straightline_codegen::Kernel;
+use straightline_codegen::chain::Chain;
 use straightline_codegen::diagnostic::Errors;
 
 /// Selection of a kernel and its options.
@@ -20,6 +21,15 @@ pub struct KernelArgs {
 }
 
 impl KernelArgs {
+    /// Returns the chain with all its files; `None` if the name is that of a kernel.
+    pub fn locate_chain(&self) -> Result<Option<Chain>, Errors> {
+        let Some(chain) = Chain::from_argument(&self.kernel)? else {
+            return Ok(None);
+        };
+        let chain = self.source.iter().fold(Ok(chain), |chain, path| chain?.with_file(path));
+        chain.map(Some)
+    }
+
     /// Returns the kernel with all its files.
     pub fn locate_kernel(&self) -> Result<Kernel, Errors> {
         let kernel = Kernel::from_argument(&self.kernel);

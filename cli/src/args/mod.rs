@@ -3,6 +3,7 @@
 #[cfg(any(test, not(feature = "study")))]
 mod absent;
 mod capture;
+mod chain;
 mod check;
 mod kernel;
 mod knobs;
@@ -29,6 +30,7 @@ use absent::{
     AbsentArgs as StudyArgs, AbsentArgs as TuneArgs,
 };
 pub use capture::{CaptureArgs, CompareArgs, PlacedByArg, ResolveArgs, ViewArgs};
+pub use chain::ChainArgs;
 pub use check::{CheckArgs, MessageFormat};
 pub use kernel::KernelArgs;
 pub use knobs::{SettingsArgs, WritingArgs};
@@ -37,8 +39,8 @@ pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};
 pub use straightline_isa::Gpu;
 #[cfg(feature = "study")]
 pub use study::{
-    AllArgs, CommonArgs, CompilersArgs, ErrorArgs, FilmArgs, FrameArgs, Gpus, HardArgs, IsaArgs, LoopsArgs, MotionArgs,
-    PrecisionArgs, Study, StudyArgs,
+    AllArgs, ChainsArgs, CommonArgs, CompilersArgs, ErrorArgs, FilmArgs, FrameArgs, Gpus, HardArgs, IsaArgs, LoopsArgs,
+    MotionArgs, PrecisionArgs, Study, StudyArgs,
 };
 #[cfg(feature = "study")]
 pub use sweep::{CardArgs, MergeArgs, RecordsArgs, SweepArgs};
@@ -126,6 +128,8 @@ pub struct EmitArgs {
     pub kernel: KernelArgs,
     #[command(flatten)]
     pub writing: WritingArgs,
+    #[command(flatten)]
+    pub chain: ChainArgs,
     /// Write the files for an engine: NAME (see `list`), or a folder with an `engine.toml`, which sets language, form and
     /// origin
     #[arg(long, value_name = "NAME|FOLDER", conflicts_with_all = straightline_engines::FIXED)]
@@ -158,6 +162,8 @@ impl EmitArgs {
 pub struct ExplainArgs {
     #[command(flatten)]
     pub kernel: KernelArgs,
+    #[command(flatten)]
+    pub chain: ChainArgs,
     /// Precision of the shader's arithmetic: f32 or f16
     #[arg(long, value_name = "PRECISION", default_value = "f32", value_parser = |s: &str| s.parse::<Precision>())]
     pub precision: Precision,

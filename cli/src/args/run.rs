@@ -1,6 +1,6 @@
 //! The arguments of `run` and `watch`.
 
-use super::{AdapterArgs, EmitArgs, KernelArgs, pair, size};
+use super::{AdapterArgs, ChainArgs, EmitArgs, KernelArgs, pair, size};
 use clap::{Args, ValueEnum};
 use glam::UVec2;
 use straightline_codegen::Stage;
@@ -47,6 +47,8 @@ pub struct RunArgs {
     #[command(flatten)]
     pub kernel: KernelArgs,
     #[command(flatten)]
+    pub chain: ChainArgs,
+    #[command(flatten)]
     pub given: GivenArgs,
     /// Picture to write, [NAME=]FILE: .png (8 bits, sRGB) or .exr (linear floats); may be given several times
     ///
@@ -83,6 +85,7 @@ impl WatchArgs {
         let spec = self.emit.shader_spec();
         Some(RunArgs {
             kernel: self.emit.kernel.clone(),
+            chain: self.emit.chain.clone(),
             given: self.given.clone(),
             out: vec![picture],
             precision: spec.emit.precision.to_string(),

@@ -68,6 +68,8 @@ pub enum Study {
     Hard(HardArgs),
     /// Compile each kernel with GPU compilers, without a GPU, and report their figures
     Isa(IsaArgs),
+    /// Measure chains of passes with pictures stored and computed where they are read: time, memory, error
+    Chains(ChainsArgs),
     /// Find values of a kernel that may be computed in half precision: the cheapest choice within a bound of the error
     Precision(Box<PrecisionArgs>),
     /// Measure one kernel in every combination of options, unroll factors, stages, workgroups and blocks
@@ -98,6 +100,19 @@ pub struct LoopsArgs {
     /// Also write the picture of each kernel to this folder, and all of them in one picture, `all.png`
     #[arg(long, value_name = "DIR")]
     pub pictures: Option<PathBuf>,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct ChainsArgs {
+    /// Chain to measure: FILE.rs or FILE.rs::FUNCTION; several are measured one after the other
+    #[arg(required = true, value_name = "CHAIN")]
+    pub chains: Vec<String>,
+    /// Additional file with functions that the chains call; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub source: Vec<PathBuf>,
+    /// Picture for a texture of each chain, NAME=FILE, in place of the test card; may be given several times
+    #[arg(long, value_name = "NAME=FILE", value_parser = super::pair)]
+    pub input: Vec<(String, String)>,
 }
 
 #[derive(Clone, Debug, Default, Args)]

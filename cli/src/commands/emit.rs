@@ -1,17 +1,22 @@
 //! `emit`: writes shaders for other engines.
 
+use super::chain::emit_chain;
 use super::notes::find_notes;
 use crate::args::EmitArgs;
 use crate::failure::Failure;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use straightline_codegen::{Compiled, EmitOptions, Kernel, Precision, files};
+use straightline_codegen::{Compiled, EmitOptions, Kernel, OptionInfo, Precision, files};
 use straightline_engines::{Engine, EngineError, Request};
 use straightline_kernels::HalfPrecision;
 
 /// Writes the shader in every requested language with its manifest, or the files for an engine, or nothing on an error;
 /// prints the paths.
 pub fn emit_kernel(args: &EmitArgs) -> Result<(), Failure> {
+    if let Some(chain) = args.kernel.locate_chain()? {
+        return emit_chain(args, &chain);
+    }
+    args.chain.refuse(&args.kernel.kernel)?;
     let ready = compile_kernel(args)?;
     for file in write_shaders(args, &ready)? {
         outln!("{}", file.display());
@@ -51,7 +56,7 @@ pub fn write_shaders(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Res
     }
     if let Some(engine) = &args.engine {
         let request = (options, args.bind.iter().cloned().collect());
-        let files = for_engine(request, kernel, compiled, engine, name)?;
+        let files = for_engine(request, &kernel.options()?, compiled, engine, name)?;
         return write_all(args, compiled, &files);
     }
     let emitted = compiled.emit(&options)?;
@@ -59,9 +64,9 @@ pub fn write_shaders(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Res
 }
 
 /// Returns the files for an engine.
-fn for_engine(
+pub fn for_engine(
     (emit, binds): (EmitOptions, BTreeMap<String, String>),
-    kernel: &Kernel,
+    options: &[OptionInfo],
     compiled: &Compiled,
     engine: &str,
     name: &str,
@@ -72,12 +77,11 @@ fn for_engine(
         error => Failure::from_error(error),
     };
     let engine = Engine::find(engine).map_err(failure)?;
-    let options = kernel.options()?;
     let request = Request {
         name: name.to_owned(),
         emit,
         binds,
-        ..Request::new(compiled, &options)
+        ..Request::new(compiled, options)
     };
     engine.render_files(&request).map_err(failure)
 }

@@ -1,5 +1,6 @@
 //! `explain`: operation counts of a kernel, per pixel.
 
+use super::chain::explain_chain;
 use super::footprint::{footprint_json, write_drawing};
 use super::machine;
 use super::notes::find_notes;
@@ -28,6 +29,10 @@ pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
         explain_code(code, args.json);
         return Ok(());
     }
+    if let Some(chain) = args.kernel.locate_chain()? {
+        return explain_chain(args, &chain);
+    }
+    args.chain.refuse(&args.kernel.kernel)?;
     let kernel = args.kernel.locate_kernel()?;
     let compiled = kernel.compile_observed(&args.kernel.options.settings(), &mut |stage, graph| {
         if args.dump {

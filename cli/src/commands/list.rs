@@ -4,6 +4,7 @@ use crate::args::ListArgs;
 use crate::failure::Failure;
 use crate::paragraph::wrap_text;
 use serde_json::{Value, json};
+use straightline_codegen::chain::Chain;
 use straightline_codegen::{Kernel, OptionInfo, OptionKind, shorten};
 use straightline_engines::description::Description;
 use straightline_engines::{Engine, MEANINGS, engine_names};
@@ -118,6 +119,11 @@ fn print_meanings(description: &Description) {
 }
 
 fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
+    if let (Some(chain), false) = (Chain::from_argument(name)?, as_json) {
+        outln!("{}: a chain of passes", chain.name());
+        print_options(&chain.options()?);
+        return Ok(());
+    }
     let kernel = Kernel::from_argument(name)?;
     if as_json {
         outln!("{:#}", kernel_json(&kernel)?);
@@ -126,17 +132,21 @@ fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
     let options = kernel.options()?;
     let summary = straightline_kernels::find(name).map_or(String::new(), |entry| format!(": {}", entry.summary));
     outln!("{}", wrap_text(&format!("{}{summary}", kernel.name()), WIDTH, "", "  "));
-    if options.is_empty() {
-        outln!("\nIt has no options.");
-        return Ok(());
-    }
     if !kernel.presets().is_empty() {
         outln!("\nPresets, for `--set preset=NAME`; options set beside one override its own:");
         kernel.presets().iter().for_each(print_preset);
     }
+    print_options(&options);
+    Ok(())
+}
+
+fn print_options(options: &[OptionInfo]) {
+    if options.is_empty() {
+        outln!("\nIt has no options.");
+        return;
+    }
     outln!("\nOptions, for `--set OPTION=VALUE`:");
     options.iter().for_each(print_option);
-    Ok(())
 }
 
 fn print_preset(preset: &Preset) {

@@ -4,6 +4,7 @@ pub mod adapters;
 #[cfg(feature = "study")]
 pub mod budget;
 pub mod capture;
+mod chain;
 pub mod check;
 pub mod compare;
 #[cfg(feature = "study")]

@@ -1,18 +1,11 @@
 //! Chains whose passes are compiled.
 
-use super::fusion::{self, Decision};
 use super::spec::ChainSpec;
 use crate::compiled::Compiled;
-use crate::kernel::Kernel;
-use crate::pipeline::Start;
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
-use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File};
-use straightline_evaluator::front::chain::{Chain, Pass, Picture, Source};
-use straightline_evaluator::passes::{self, Drawn};
-use straightline_kernels::OptionValues;
+use std::collections::BTreeMap;
+use straightline_evaluator::front::chain::{Picture, Source};
+use straightline_evaluator::ir::Graph;
 use straightline_manifest::Format;
-use straightline_manifest::chain::SizeRule;
 
 /// A chain whose passes are compiled, ready to be emitted or interpreted.
 #[derive(Clone, Debug)]
@@ -51,10 +44,59 @@ pub struct CompiledPass {
     pub reads: Vec<(String, Source)>,
 }
 
+impl CompiledPass {
+    /// Name of the chain's input that a resource of the kernel is; `None` of a picture.
+    pub fn input_named(&self, resource: &str) -> Option<&str> {
+        let (_, source) = self.reads.iter().find(|(name, _)| name == resource)?;
+        match source {
+            Source::Input(name) => Some(name),
+            Source::Picture(_) => None,
+        }
+    }
+}
+
 impl CompiledChain {
     /// The kernel of a pass.
     pub fn kernel_of(&self, pass: &CompiledPass) -> &Compiled {
         &self.kernels[&pass.kernel]
+    }
+
+    /// Everything that the passes take from the caller, as the tables of a graph without operations.
+    pub fn inputs_graph(&self) -> Graph {
+        let mut all = Graph::default();
+        for pass in &self.passes {
+            let graph = &self.kernel_of(pass).graph;
+            for texture in &graph.textures {
+                let Some(name) = pass.input_named(&texture.name) else {
+                    continue;
+                };
+                match all.textures.iter_mut().find(|known| known.name == name) {
+                    Some(known) => {
+                        known.components = known.components.max(texture.components);
+                        known.framed |= texture.framed;
+                    }
+                    None => {
+                        let mut texture = texture.clone();
+                        name.clone_into(&mut texture.name);
+                        all.textures.push(texture);
+                    }
+                }
+            }
+            for buffer in &graph.buffers {
+                let named = pass.input_named(&buffer.name);
+                if let Some(name) = named.filter(|name| all.buffers.iter().all(|known| known.name != *name)) {
+                    let mut buffer = buffer.clone();
+                    name.clone_into(&mut buffer.name);
+                    all.buffers.push(buffer);
+                }
+            }
+            for uniform in &graph.uniforms {
+                if all.uniforms.iter().all(|known| known.name != uniform.name) {
+                    all.uniforms.push(uniform.clone());
+                }
+            }
+        }
+        all
     }
 
     /// Name of the input or picture that a pass reads.
@@ -62,322 +104,6 @@ impl CompiledChain {
         match source {
             Source::Input(name) => name,
             Source::Picture(index) => &self.pictures[*index].name,
-        }
-    }
-}
-
-/// Compiles the kernels of a chain's passes.
-pub(super) fn compile_passes(
-    files: &Arc<Vec<File>>,
-    chain: Chain,
-    options: &OptionValues,
-    spec: &ChainSpec,
-) -> Result<CompiledChain, Errors> {
-    let compiler = Compiler {
-        files,
-        chain: &chain,
-        options,
-        spec,
-    };
-    let starts = compiler.evaluate_all()?;
-    let decision = fusion::decide(&chain, &starts, &spec.fuse).map_err(|error| Errors::new(vec![error], files))?;
-    let planned = compiler.plan_passes(&starts, &decision)?;
-    let kernels = compiler.compile_all(&planned)?;
-    let stored = |index: usize| decision.fused[..index].iter().filter(|fused| !**fused).count();
-    let moved = |source: Source| match source {
-        Source::Picture(index) => Source::Picture(stored(index)),
-        input => input,
-    };
-    let mut passes = Vec::new();
-    let mut pictures = Vec::new();
-    for planned in planned {
-        let picture = &chain.pictures[planned.picture];
-        let default = match chain.results.contains(&planned.picture) {
-            true => spec.shader.emit.format,
-            false => spec.pictures.unwrap_or_default(),
-        };
-        let reads = planned.reads.into_iter().map(|(name, source)| (name, moved(source)));
-        passes.push(CompiledPass {
-            format: picture.format.unwrap_or(default),
-            shader: planned.kernel.clone(),
-            kernel: planned.kernel,
-            reads: reads.collect(),
-        });
-        pictures.push(picture.clone());
-    }
-    name_shaders(&mut passes);
-    let named = |index: usize| chain.pictures[index].name.clone();
-    Ok(CompiledChain {
-        fused: (0..chain.pictures.len())
-            .filter(|k| decision.fused[*k])
-            .map(named)
-            .collect(),
-        kept: decision
-            .kept
-            .into_iter()
-            .map(|kept| (named(kept.picture), kept.reason))
-            .collect(),
-        results: chain.results.iter().map(|index| stored(*index)).collect(),
-        name: chain.name,
-        summary: chain.summary,
-        inputs: chain.inputs,
-        passes,
-        pictures,
-        kernels,
-        spec: spec.clone(),
-    })
-}
-
-/// A pass that is stored, before its kernel is compiled.
-struct Planned {
-    /// Index of its picture in the chain.
-    picture: usize,
-    /// Name of its kernel.
-    kernel: String,
-    /// Name of the kernel as the front end made it.
-    entry: String,
-    /// Kernel with the pictures in it that are computed in place; `None` if there are none.
-    fused: Option<Start>,
-    reads: Vec<(String, Source)>,
-}
-
-struct Compiler<'c> {
-    files: &'c Arc<Vec<File>>,
-    chain: &'c Chain,
-    options: &'c OptionValues,
-    spec: &'c ChainSpec,
-}
-
-impl Compiler<'_> {
-    fn kernel(&self, entry: &str) -> Kernel {
-        Kernel::from_pass(self.files, &self.chain.name, self.options, entry)
-    }
-
-    /// Description of the shaders of a kernel: one without options takes no settings of them.
-    fn settings(&self, entry: &str) -> crate::spec::Settings {
-        let mut settings = self.spec.shader.dispatched_settings();
-        let has_options = self
-            .chain
-            .passes
-            .iter()
-            .any(|pass| pass.entry == entry && pass.has_options);
-        if !has_options {
-            settings.options.clear();
-        }
-        settings
-    }
-
-    /// Evaluates every kernel once. All errors of all passes are reported.
-    fn evaluate_all(&self) -> Result<BTreeMap<String, Start>, Errors> {
-        let mut failures = Failures::default();
-        let mut starts = BTreeMap::new();
-        for pass in &self.chain.passes {
-            if !starts.contains_key(&pass.entry) && !failures.entries.contains(&pass.entry) {
-                match self.kernel(&pass.entry).evaluate(&self.settings(&pass.entry)) {
-                    Ok(start) => {
-                        starts.insert(pass.entry.clone(), start);
-                    }
-                    Err(errors) => failures.add(&pass.entry, errors),
-                }
-            }
-        }
-        failures.none(self.files).map(|()| starts)
-    }
-
-    /// Lists the passes that are stored, with what they compute in place.
-    fn plan_passes(&self, starts: &BTreeMap<String, Start>, decision: &Decision) -> Result<Vec<Planned>, Errors> {
-        let mut fused: Vec<Option<Start>> = Vec::new();
-        let mut planned: Vec<Planned> = Vec::new();
-        for (index, pass) in self.chain.passes.iter().enumerate() {
-            let in_place = |source: &Source| matches!(source, Source::Picture(k) if decision.fused[*k]);
-            let has_fused = pass.reads.iter().any(|(_, source)| in_place(source));
-            if !decision.fused[index] && !has_fused {
-                fused.push(None);
-                planned.push(Planned {
-                    picture: index,
-                    kernel: pass.entry.clone(),
-                    entry: pass.entry.clone(),
-                    fused: None,
-                    reads: pass.reads.clone(),
-                });
-                continue;
-            }
-            let start = self.fuse_pass(&starts[&pass.entry], index, decision, &fused)?;
-            if !decision.fused[index] {
-                let reads = self.reads_of(&start);
-                let taken = |name: &str| planned.iter().any(|other| other.kernel == name);
-                let names = (1..).map(|k| {
-                    if k == 1 {
-                        pass.entry.clone()
-                    } else {
-                        format!("{}_{k}", pass.entry)
-                    }
-                });
-                planned.push(Planned {
-                    picture: index,
-                    kernel: names.into_iter().find(|name| !taken(name)).expect("endless"),
-                    entry: pass.entry.clone(),
-                    fused: Some(start.clone()),
-                    reads,
-                });
-            }
-            fused.push(Some(start));
-        }
-        Ok(planned)
-    }
-
-    /// The kernel of a pass with the pictures in it that are computed in place. Its textures are called after what they hold.
-    fn fuse_pass(
-        &self,
-        start: &Start,
-        index: usize,
-        decision: &Decision,
-        fused: &[Option<Start>],
-    ) -> Result<Start, Errors> {
-        let pass = &self.chain.passes[index];
-        let mut start = self.renamed(start, pass);
-        let size = &self.chain.pictures[index].size;
-        for (_, source) in &pass.reads {
-            let Source::Picture(read) = source else {
-                continue;
-            };
-            let (true, Some(producer)) = (decision.fused[*read], &fused[*read]) else {
-                continue;
-            };
-            let picture = &self.chain.pictures[*read];
-            let drawn = Drawn {
-                name: &picture.name,
-                graph: &producer.graph,
-                size: Some(&picture.size).filter(|of| *of != size),
-            };
-            start.graph = passes::fuse_picture(&start.graph, &drawn).map_err(|reason| {
-                let what = format!("the picture `{}` cannot be fused: {reason}", picture.name);
-                let error = Diagnostic::error_at(Code::UnfitSetting, picture.span, what)
-                    .label("drawn here")
-                    .help("store it: leave it out of `--fuse`");
-                Errors::new(vec![error], self.files)
-            })?;
-            start.half.extend(producer.half.iter().cloned());
-        }
-        Ok(start)
-    }
-
-    /// The kernel with its resources called as the inputs and pictures of the chain are.
-    fn renamed(&self, start: &Start, pass: &Pass) -> Start {
-        let mut start = start.clone();
-        let name_of = |name: &str| {
-            let found = pass.reads.iter().find(|(known, _)| known == name);
-            found.map(|(_, source)| match source {
-                Source::Input(name) => name.clone(),
-                Source::Picture(index) => self.chain.pictures[*index].name.clone(),
-            })
-        };
-        let graph = &mut start.graph;
-        let names = graph.textures.iter_mut().map(|texture| &mut texture.name);
-        let names = names.chain(graph.samplers.iter_mut().map(|sampler| &mut sampler.name));
-        let names = names.chain(graph.buffers.iter_mut().map(|buffer| &mut buffer.name));
-        for name in names {
-            if let Some(source) = name_of(name) {
-                *name = source;
-            }
-        }
-        start
-    }
-
-    /// What a fused kernel reads: its resources are called after that.
-    fn reads_of(&self, start: &Start) -> Vec<(String, Source)> {
-        let graph = &start.graph;
-        let names = graph.textures.iter().map(|texture| &texture.name);
-        let names = names.chain(graph.samplers.iter().map(|sampler| &sampler.name));
-        let names = names.chain(graph.buffers.iter().map(|buffer| &buffer.name));
-        let source = |name: &String| match self.chain.pictures.iter().position(|picture| picture.name == *name) {
-            Some(index) => Source::Picture(index),
-            None => Source::Input(name.clone()),
-        };
-        names.map(|name| (name.clone(), source(name))).collect()
-    }
-
-    /// Compiles each kernel once, with what the chain knows of the sizes of its textures.
-    fn compile_all(&self, planned: &[Planned]) -> Result<BTreeMap<String, Compiled>, Errors> {
-        let mut failures = Failures::default();
-        let mut kernels = BTreeMap::new();
-        for pass in planned {
-            if kernels.contains_key(&pass.kernel) || failures.entries.contains(&pass.kernel) {
-                continue;
-            }
-            let framed = self.framed_textures(planned, &pass.kernel);
-            let change = |start: Start| {
-                let mut start = pass.fused.clone().unwrap_or(start);
-                start.graph = passes::frame_textures(&start.graph, &|name| framed.contains(name));
-                Ok(start)
-            };
-            let kernel = self.kernel(&pass.entry);
-            match kernel.compile_changed(&self.settings(&pass.entry), &mut |_, _| {}, &change) {
-                Ok(mut compiled) => {
-                    compiled.kernel.clone_from(&pass.kernel);
-                    kernels.insert(pass.kernel.clone(), compiled);
-                }
-                Err(errors) => failures.add(&pass.kernel, errors),
-            }
-        }
-        failures.none(self.files).map(|()| kernels)
-    }
-
-    /// Textures of a kernel that have the size of what is drawn, in every pass that has the kernel.
-    fn framed_textures(&self, planned: &[Planned], kernel: &str) -> BTreeSet<String> {
-        let passes = planned.iter().filter(|pass| pass.kernel == kernel);
-        let framed = passes.map(|pass| -> BTreeSet<String> {
-            let drawn = &self.chain.pictures[pass.picture].size;
-            let is_framed = |source: &Source| match source {
-                Source::Input(name) => drawn == &SizeRule::of_input(name),
-                Source::Picture(index) => &self.chain.pictures[*index].size == drawn,
-            };
-            let framed = pass.reads.iter().filter(|(_, source)| is_framed(source));
-            framed.map(|(name, _)| name.clone()).collect()
-        });
-        framed
-            .reduce(|all, other| all.intersection(&other).cloned().collect())
-            .unwrap_or_default()
-    }
-}
-
-/// Errors of several kernels of one set of files.
-#[derive(Default)]
-struct Failures {
-    /// Kernels that have errors.
-    entries: BTreeSet<String>,
-    found: Vec<Diagnostic>,
-    /// Errors of the first kernel, if it is the only one.
-    first: Option<Errors>,
-}
-
-impl Failures {
-    fn add(&mut self, entry: &str, errors: Errors) {
-        for error in &errors.diagnostics {
-            if !self.found.contains(error) {
-                self.found.push(error.clone());
-            }
-        }
-        self.entries.insert(entry.to_owned());
-        self.first.get_or_insert(errors);
-    }
-
-    fn none(self, files: &Arc<Vec<File>>) -> Result<(), Errors> {
-        match (self.first, self.entries.len()) {
-            (None, _) => Ok(()),
-            (Some(first), 1) => Err(first),
-            (Some(_), _) => Err(Errors::new(self.found, files)),
-        }
-    }
-}
-
-/// Names the shaders of passes that have one kernel and several formats after both.
-fn name_shaders(passes: &mut [CompiledPass]) {
-    let formats: Vec<(String, Format)> = passes.iter().map(|pass| (pass.kernel.clone(), pass.format)).collect();
-    for pass in passes {
-        let first = formats.iter().find(|(kernel, _)| *kernel == pass.kernel);
-        if first.is_some_and(|(_, format)| *format != pass.format) {
-            pass.shader = format!("{}_{}", pass.kernel, pass.format);
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::emit::Emitted;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::diagnostic::Errors;
 use straightline_evaluator::front::chain::Source;
-use straightline_manifest::chain::{CHAIN_SCHEMA, ChainPlan, PassPlan, PicturePlan, ReadPlan};
+use straightline_manifest::chain::{CHAIN_SCHEMA, ChainPlan, PassPlan, PicturePlan, ReadPlan, SizeTerm};
 
 /// The files of a chain.
 #[derive(Clone, Debug)]
@@ -129,24 +129,22 @@ fn plan_chain(chain: &CompiledChain, shaders: &BTreeMap<String, EmittedPass>) ->
                 .collect(),
             writes: vec![picture.name.clone().into()].into(),
         });
-    let read: BTreeSet<&str> = chain
-        .passes
+    let inputs = |name: &&String| {
+        let is_read = |(_, source): &(String, Source)| matches!(source, Source::Input(input) if input == *name);
+        let has_size = |term: &SizeTerm| matches!(term, SizeTerm::Of(input) if *input == **name);
+        chain.passes.iter().any(|pass| pass.reads.iter().any(is_read))
+            || chain.pictures.iter().any(|picture| picture.size.0.iter().any(has_size))
+    };
+    let inputs = chain
+        .inputs
         .iter()
-        .flat_map(|pass| &pass.reads)
-        .filter_map(|(_, s)| match s {
-            Source::Input(name) => Some(name.as_str()),
-            Source::Picture(_) => None,
-        })
+        .filter(inputs)
+        .map(|name| name.clone().into())
         .collect();
     ChainPlan {
         schema: CHAIN_SCHEMA,
         chain: chain.name.clone().into(),
-        inputs: chain
-            .inputs
-            .iter()
-            .filter(|name| read.contains(name.as_str()))
-            .map(|name| name.clone().into())
-            .collect(),
+        inputs,
         pictures: pictures.collect(),
         passes: passes.collect(),
     }

@@ -5,7 +5,7 @@ use crate::pipeline::Start;
 use std::collections::BTreeMap;
 use straightline_evaluator::diagnostic::{Code, Diagnostic};
 use straightline_evaluator::front::chain::{Chain, Source};
-use straightline_evaluator::ir::Op;
+use straightline_evaluator::ir::{Op, Texture};
 use straightline_evaluator::passes::{self, Unfused};
 use straightline_evaluator::suggest_name;
 
@@ -32,7 +32,12 @@ pub struct Decision {
 /// # Errors
 ///
 /// A name that no picture has, or that of a picture that has to be stored.
-pub fn decide(chain: &Chain, starts: &BTreeMap<String, Start>, fuse: &Fuse) -> Result<Decision, Diagnostic> {
+pub fn decide(
+    chain: &Chain,
+    starts: &BTreeMap<String, Start>,
+    sized: &[Texture],
+    fuse: &Fuse,
+) -> Result<Decision, Diagnostic> {
     let mut decision = Decision {
         fused: vec![false; chain.pictures.len()],
         kept: Vec::new(),
@@ -49,7 +54,7 @@ pub fn decide(chain: &Chain, starts: &BTreeMap<String, Start>, fuse: &Fuse) -> R
         if !wanted {
             continue;
         }
-        let reason = match obstacle(chain, starts, index) {
+        let reason = match obstacle(chain, starts, sized, index) {
             Err(reason) => reason,
             Ok(reads) if *fuse == Fuse::Auto && !pays(&starts[&chain.passes[index].entry], &reads) => {
                 let operations = operations(&starts[&chain.passes[index].entry]);
@@ -87,13 +92,21 @@ fn check_names<'n>(chain: &Chain, names: impl Iterator<Item = &'n str>) -> Resul
 }
 
 /// Numbers of coordinates at which each later pass reads a picture, or the reason why it has to be stored.
-fn obstacle(chain: &Chain, starts: &BTreeMap<String, Start>, index: usize) -> Result<Vec<usize>, String> {
+fn obstacle(
+    chain: &Chain,
+    starts: &BTreeMap<String, Start>,
+    sized: &[Texture],
+    index: usize,
+) -> Result<Vec<usize>, String> {
     if chain.results.contains(&index) {
         return Err("it is a result of the chain".to_owned());
     }
     let start = &starts[&chain.passes[index].entry];
     if let Some(obstacle) = passes::find_obstacle(&start.graph) {
         return Err(obstacle.to_string());
+    }
+    if !passes::has_textures(&chain.pictures[index].size, sized) {
+        return Err(Unfused::Size.to_string());
     }
     let mut reads = Vec::new();
     for pass in &chain.passes {

@@ -23,6 +23,7 @@
 //! ```
 
 mod compiled;
+mod compiler;
 mod emitted;
 mod fusion;
 mod memory;
@@ -139,7 +140,7 @@ impl Chain {
     pub fn compile(&self, spec: &ChainSpec) -> Result<CompiledChain, Errors> {
         let options = self.option_values(&spec.shader.settings.options)?;
         let chain = deep(|| front::read_chain(&self.files, &self.name, &options))?;
-        compiled::compile_passes(&self.files, chain, &options, spec)
+        compiler::compile_passes(&self.files, chain, &options, spec)
     }
 
     /// Values of the options that decide what passes there are: all but floats, which only passes compute with.

@@ -52,9 +52,9 @@ use straightline_evaluator::ir::Invocation;
 use straightline_evaluator::limits::{self, Meter};
 use straightline_evaluator::policy::Transport;
 use straightline_kernels::HalfPrecision;
-use straightline_manifest::{Counts, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
+use straightline_manifest::{Counts, Format, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
 
-pub use bindings::{Module, render_bindings};
+pub use bindings::{ChainModule, Module, render_bindings};
 pub use prose::single_line_comment;
 pub use statements::{statements_at_least, statements_at_most};
 pub use words::is_among;
@@ -116,6 +116,14 @@ fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Ref
 }
 
 impl Compiled {
+    /// Texel formats of the kernel's targets; `colour` is that of three and four floats.
+    pub fn target_formats(&self, colour: Format) -> Vec<Format> {
+        let targets = self.graph.targets.iter();
+        targets
+            .map(|target| outputs::BoundOutput::new(target, colour).format)
+            .collect()
+    }
+
     /// Returns the counts, including those of the kernel body's text, which are the same in every language and stage.
     pub fn text_counts(&self) -> Counts {
         let mut counts = self.counts.clone();

@@ -1,8 +1,10 @@
 //! A kernel with the description of its shader, for a `build.rs`.
 
 use super::{ShaderSpec, Target};
+use crate::chain::Fuse;
 use std::path::{Path, PathBuf};
 use straightline_kernels::KernelOptions;
+use straightline_manifest::Format;
 
 /// A shader: a kernel and the settings of its computation and text. WGSL is always written, because the bindings include
 /// it. Made by [`Config::kernel`](crate::Config::kernel) and [`Config::file_with`](crate::Config::file_with).
@@ -13,6 +15,10 @@ pub struct KernelConfig {
     pub(crate) function: Option<String>,
     pub(crate) name: Option<String>,
     pub(crate) spec: ShaderSpec,
+    /// Pictures of a chain that are computed where they are read.
+    pub(crate) fuse: Fuse,
+    /// Format of the pictures between the passes of a chain.
+    pub(crate) pictures: Option<Format>,
     /// Additional files with functions that the kernel calls.
     pub(crate) sources: Vec<PathBuf>,
 }
@@ -32,6 +38,8 @@ impl KernelConfig {
             function: None,
             name: None,
             spec: ShaderSpec::new(),
+            fuse: Fuse::None,
+            pictures: None,
             sources: Vec::new(),
         }
     }
@@ -73,6 +81,28 @@ impl KernelConfig {
     /// ```
     pub fn target(mut self, target: Target) -> Self {
         self.spec = self.spec.target(target);
+        self
+    }
+
+    /// Computes pictures of a chain where they are read, in place of storing them.
+    ///
+    /// ```
+    /// # use straightline_codegen::{chain::Fuse, Config};
+    /// let shaders = Config::new().file_with("src/bloom.rs", |k| k.fuse(Fuse::Auto));
+    /// ```
+    pub fn fuse(mut self, fuse: Fuse) -> Self {
+        self.fuse = fuse;
+        self
+    }
+
+    /// Format of the pictures between the passes of a chain, but of those with an attribute.
+    ///
+    /// ```
+    /// # use straightline_codegen::{Config, Format};
+    /// let shaders = Config::new().file_with("src/bloom.rs", |k| k.pictures(Format::Rgba8Unorm));
+    /// ```
+    pub fn pictures(mut self, format: Format) -> Self {
+        self.pictures = Some(format);
         self
     }
 

@@ -167,7 +167,7 @@ fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
     }
     std::fs::write(
         folder.join(file),
-        emit::render_bindings(&[module]).map_err(|e| e.to_string())?,
+        emit::render_bindings(&[module], &[]).map_err(|e| e.to_string())?,
     )
     .expect("written");
     rustc(folder, file, &BINDINGS);
@@ -311,6 +311,7 @@ fn write(out: &Path) {
         .file_with(kernel("drawn"), |k| k.stage(Stage::Fragment))
         .file_with(kernel("several"), |k| k.stage(Stage::Fragment))
         .file(kernel("waiting"))
+        .file_with(kernel("glow"), |k| k.format(Format::Rgba32Float))
         .kernel("sraa", |k| {
             let k = k.set("pattern", "latin4").set("metric", "depth").set("tau", "uniform");
             k.unroll(Unroll::None).format(Format::Rgba32Float)

@@ -1,5 +1,6 @@
 //! Choice of the kernel among a file's functions, if the caller names none.
 
+use super::chain::returns_pictures;
 use super::foreign::is_resource;
 use super::raw::unraw;
 use crate::diagnostic::{Code, Diagnostic};
@@ -79,6 +80,11 @@ fn no_kernel(functions: &[&syn::ItemFn], wanted: &str, path: &str) -> Diagnostic
         .help(format!(
             "write `pub fn {wanted}`, or name the function: `{path}::{wanted}`"
         )),
+        None if functions.iter().any(|function| returns_pictures(&function.sig)) => {
+            Diagnostic::new(Code::UnknownKernel, what).help(
+                "its functions draw pictures, and are chains of passes: `emit`, `run`, `check` and `explain` take them",
+            )
+        }
         None => Diagnostic::new(Code::UnknownKernel, what)
             .help("a kernel is a function such as `pub fn NAME(color: &Frame<Vec4>, pixel: IVec2) -> Vec4`"),
     }

@@ -1,10 +1,10 @@
 //! Fusing of passes: a kernel that computes the texels of a picture where it would read them.
 //!
-//! File tests: `codegen/tests/codegen/chains.rs` compares fused chains with stored ones.
+//! Tests: `tests/tests/language/chains.rs` compares fused chains with stored ones and with rustc.
 
 use super::fold::Exact;
 use crate::ir::{
-    BinaryOp, Builder, Graph, Invocation, NodeId, Op, Rebuild, Replace, Rules, Scalar, TextureKind, Type,
+    BinaryOp, Builder, Graph, Invocation, NodeId, Op, Rebuild, Replace, Rules, Scalar, Texture, TextureKind, Type,
     rebuild_graph, rebuild_replacing,
 };
 use crate::limits;
@@ -24,6 +24,8 @@ pub struct Drawn<'a> {
     pub graph: &'a Graph,
     /// Its size in those of textures; `None` if it is the size of the frame.
     pub size: Option<&'a SizeRule>,
+    /// Textures that the size may name, whether or not one of the kernels reads them.
+    pub sized: &'a [Texture],
 }
 
 /// Reason why a picture has to be stored.
@@ -35,7 +37,7 @@ pub enum Unfused {
     Regions,
     /// The kernel that draws it writes memory, or is one of quads, workgroups or blocks.
     Invocation,
-    /// Its size is that of a texture that neither kernel reads.
+    /// Its size is that of a texture that no pass reads.
     Size,
     /// The fused kernel has too many operations.
     TooLarge,
@@ -47,7 +49,7 @@ impl fmt::Display for Unfused {
             Unfused::Sampled => "a sampler reads it, and a sampler reads textures",
             Unfused::Regions => "the pass that draws it leaves a loop or a branch in the shader",
             Unfused::Invocation => "the pass that draws it is no kernel of single pixels",
-            Unfused::Size => "its size is that of a texture that neither pass reads",
+            Unfused::Size => "its size is that of a texture that no pass reads",
             Unfused::TooLarge => "the fused pass is too large",
         })
     }
@@ -61,6 +63,14 @@ pub fn find_obstacle(producer: &Graph) -> Option<Unfused> {
     let single =
         matches!(producer.invocation, Invocation::Pixel | Invocation::MayBeOutside) && producer.targets.len() == 1;
     (!single || producer.has_effects() || !producer.varyings.is_empty()).then_some(Unfused::Invocation)
+}
+
+/// Returns whether all textures that a size names are among `sized`.
+pub fn has_textures(rule: &SizeRule, sized: &[Texture]) -> bool {
+    rule.0.iter().all(|term| match term {
+        SizeTerm::Of(name) => sized.iter().any(|texture| texture.name == **name),
+        _ => true,
+    })
 }
 
 /// Coordinates at which a kernel reads a picture: their number, or `None` if a sampler reads it.
@@ -96,13 +106,7 @@ pub fn fuse_picture(consumer: &Graph, drawn: &Drawn<'_>) -> Result<Graph, Unfuse
     if count_reads(consumer, drawn.name).is_none() {
         return Err(Unfused::Sampled);
     }
-    let has = |name: &str| {
-        [consumer, drawn.graph]
-            .iter()
-            .any(|graph| graph.textures.iter().any(|t| t.name == name))
-    };
-    let is_known = |term: &SizeTerm| !matches!(term, SizeTerm::Of(name) if !has(name));
-    if drawn.size.is_some_and(|rule| !rule.0.iter().all(is_known)) {
+    if drawn.size.is_some_and(|rule| !has_textures(rule, drawn.sized)) {
         return Err(Unfused::Size);
     }
     let Some(texture) = consumer.textures.iter().position(|texture| texture.name == drawn.name) else {
@@ -196,6 +200,22 @@ impl Replace for Fuse<'_> {
             // A frame of the producer has the picture's size, which the consumer's frame may not have.
             let known = self.consumer.textures.get(*index as usize);
             texture.framed = known.map_or(of.framed && self.drawn.size.is_none(), |known| known.framed);
+        }
+        if let Some(rule) = self.drawn.size {
+            let named = |texture: &&Texture| {
+                rule.0
+                    .iter()
+                    .any(|term| *term == SizeTerm::Of(texture.name.clone().into()))
+            };
+            for texture in self.drawn.sized.iter().filter(named) {
+                if graph.textures.iter().all(|known| known.name != texture.name) {
+                    let framed = false;
+                    graph.textures.push(Texture {
+                        framed,
+                        ..texture.clone()
+                    });
+                }
+            }
         }
         for (of, index) in producer.samplers.iter().zip(&self.maps.samplers) {
             graph.samplers[*index as usize].filters |= of.filters;

@@ -27,7 +27,7 @@ pub use exactness::{exact_places, mark_exact_ops};
 pub use fast::apply_fast_math;
 pub use floor::build_floor;
 pub use fold::Exact;
-pub use fuse::{Drawn, Unfused, count_reads, find_obstacle, frame_textures, fuse_picture};
+pub use fuse::{Drawn, Unfused, count_reads, find_obstacle, frame_textures, fuse_picture, has_textures};
 pub use gathers::{Gathered, form_gathers};
 pub use half::{half_names, is_move, keeps_operands, lower_to_half};
 pub use lanes::{by_derivatives, expand_lanes};

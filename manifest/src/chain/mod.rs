@@ -236,14 +236,6 @@ impl ChainPlan {
         self.pictures.iter().filter(|picture| picture.memory.is_none())
     }
 
-    /// The plan as indented JSON that ends in a newline. Equal plans give equal text.
-    #[cfg(feature = "json")]
-    pub fn to_json(&self) -> String {
-        let mut text = serde_json::to_string_pretty(self).expect("a plan is plain data");
-        text.push('\n');
-        text
-    }
-
     /// Names of the shaders, each once, in the order of the passes.
     pub fn shaders(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();

@@ -1,5 +1,6 @@
 //! Results of studies as files: JSON with its circumstances, and CSV. `README.md` and the report cite these.
 
+mod chains;
 mod film;
 mod form;
 mod frame;
@@ -24,6 +25,7 @@ use straightline_codegen::files;
 use straightline_kernels::OptionText;
 use straightline_table::{Cell, Table};
 
+pub use chains::{ChainForm, ChainForms, ChainsRecord};
 pub use film::{FilmRecord, FilmedMethod};
 pub use form::FormKind;
 pub use frame::{Frame, FrameMethod, FrameRecord, PassTimes, TimedPass};

@@ -1,6 +1,7 @@
 //! The language: results of kernels, compared with rustc and at the edges of its values.
 
 mod arrays;
+mod chains;
 #[path = "../common/mod.rs"]
 mod common;
 mod departures;

@@ -8,14 +8,17 @@ use crate::common;
 use common::{bench, same_bits};
 use proc_macro2::{Group, TokenStream, TokenTree};
 use std::path::{Path, PathBuf};
-use straightline_bench::execute::test_inputs;
+use straightline_bench::execute::{Inputs, interpret_chain, test_inputs};
+use straightline_codegen::chain as codegen;
 use straightline_codegen::emit::{self, Emitted, Module, Target};
-use straightline_codegen::{Compiled, EmitOptions, Kernel, Settings, Stage, Unroll, default_set};
+use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, ShaderSpec, Stage, Unroll, default_set};
 use straightline_kernels::CATALOGUE;
 use straightline_kernels::prelude::*;
 use straightline_manifest::Manifest;
+use straightline_manifest::chain::ChainPlan;
 use straightline_manifest::plan::Plan;
-use straightline_runtime::{Error, Pass, PassOptions, Shader};
+use straightline_runtime::{BindOptions, Chain, Error, Pass, PassOptions, Shader};
+use wgpu::TextureFormat;
 
 mod generated {
     include!("../../../codegen/tests/bindings/straightline.rs");
@@ -44,6 +47,53 @@ fn constants_are_what_is_read() {
         let read = Shader::from_json(json, constant.wgsl()).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(read, *constant);
     }
+}
+
+/// The constant of a chain is its plan in JSON, and draws the picture of the interpreter.
+#[test]
+fn a_chain_of_constants_is_the_chain_that_is_read() {
+    let read = ChainPlan::from_json(generated::glow::PLAN).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(read, *generated::glow::CHAIN.plan());
+    let bench = bench();
+    let chain = Chain::new(bench.device(), &generated::glow::CHAIN, &PassOptions::default());
+    let chain = chain.unwrap_or_else(|e| panic!("{e}"));
+    let source = codegen::Chain::from_file(&captured().join("kernels/glow.rs"), None).unwrap_or_else(|e| panic!("{e}"));
+    let spec = ShaderSpec::new().format(Format::Rgba32Float);
+    let compiled = source
+        .expect("a chain")
+        .compile(&spec.into())
+        .unwrap_or_else(|e| panic!("{e}"));
+    let texels = (0..SIZE.x * SIZE.y)
+        .map(|k| Vec4::splat((k % 7) as f32 * 0.25))
+        .collect();
+    let inputs = Inputs::new(SIZE)
+        .with_image("color", Frame::new(SIZE, texels))
+        .with_uniform("strength", &[0.5]);
+    let expected = interpret_chain::<f32>(&compiled, &inputs).unwrap_or_else(|e| panic!("{e}"));
+    let emitted = compiled.emit().unwrap_or_else(|e| panic!("{e}"));
+    let uploaded = bench
+        .upload_for_chain(&emitted, &inputs)
+        .unwrap_or_else(|e| panic!("{e}"));
+    let target = bench.create_target(SIZE, TextureFormat::Rgba32Float);
+    let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+    let options = BindOptions::default().uniform("strength", 0.5);
+    let bound = chain
+        .bind_with(&uploaded.resources(), &view, &options)
+        .unwrap_or_else(|e| panic!("{e}"));
+    let mut encoder = bench
+        .device()
+        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    bound.encode(&mut encoder);
+    bench.queue().submit([encoder.finish()]);
+    let found = bench.download(&target).unwrap_or_else(|e| panic!("{e}"));
+    let far = |(a, b): (&Vec4, &[f64; 4])| (0..4).map(|k| (f64::from(a[k]) - b[k]).abs()).fold(0.0, f64::max);
+    let worst = found
+        .texels()
+        .iter()
+        .zip(&expected[0].texels)
+        .map(far)
+        .fold(0.0, f64::max);
+    assert!(worst < 0.01, "off by {worst}");
 }
 
 #[test]
@@ -224,7 +274,7 @@ fn compare(compiled: &Compiled, manifest: &Manifest, wgsl: &str) {
         manifest,
         wgsl,
     };
-    let text = emit::render_bindings(&[module]).unwrap_or_else(|e| panic!("{e}"));
+    let text = emit::render_bindings(&[module], &[]).unwrap_or_else(|e| panic!("{e}"));
     let plan = Plan::from_manifest(manifest).expect("a plan");
     let printed: TokenStream = format!("{plan:?}").parse().expect("tokens");
     let workgroup = text

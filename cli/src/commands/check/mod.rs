@@ -4,12 +4,13 @@ mod before;
 mod message;
 mod notes;
 
-use crate::args::{CheckArgs, MessageFormat};
+use crate::args::{CheckArgs, KernelArgs, MessageFormat};
 use crate::failure::{Failure, format_count};
 use crate::output;
 use std::collections::HashSet;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use straightline_codegen::chain::{Chain, ChainSpec};
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::{Compiled, Kernel};
 
@@ -19,8 +20,8 @@ pub fn check_kernels(args: &CheckArgs) -> Result<(), Failure> {
     // A missing file is a usage error, reported before anything runs.
     let mut located = Vec::new();
     for name in &names {
-        match args.kernel_args(name).locate_kernel() {
-            Ok(kernel) => located.push(kernel),
+        match Checked::locate(&args.kernel_args(name)) {
+            Ok(checked) => located.push(checked),
             Err(errors) => {
                 // Editors read only messages.
                 if args.message_format == MessageFormat::Json {
@@ -34,14 +35,15 @@ pub fn check_kernels(args: &CheckArgs) -> Result<(), Failure> {
     let before = before::run_command(&args.command, args.message_format)?;
     let mut shown = HashSet::new();
     let (mut broken, mut found) = (0, 0);
-    for (name, kernel) in names.iter().zip(&located) {
-        let errors = match check_kernel(args, kernel) {
-            Ok(compiled) => {
+    for (name, checked) in names.iter().zip(&located) {
+        let errors = match checked.check(args) {
+            Ok(notes) => {
                 if args.message_format == MessageFormat::Human {
                     outln!("{name}: no errors");
                 }
-                let notes = notes::find_notes(&compiled, kernel).into_iter();
-                let new = notes.filter(|note| shown.insert(format!("{:?}", note.diagnostics)));
+                let new = notes
+                    .into_iter()
+                    .filter(|note| shown.insert(format!("{:?}", note.diagnostics)));
                 new.for_each(|note| notes::print(args.message_format, name, &note));
                 continue;
             }
@@ -72,6 +74,32 @@ pub fn check_kernels(args: &CheckArgs) -> Result<(), Failure> {
         )));
     }
     before.map_err(Failure::Failed)
+}
+
+/// A kernel or a chain to check.
+enum Checked {
+    Kernel(Kernel),
+    Chain(Chain),
+}
+
+impl Checked {
+    fn locate(args: &KernelArgs) -> Result<Checked, Errors> {
+        match args.locate_chain()? {
+            Some(chain) => Ok(Checked::Chain(chain)),
+            None => args.locate_kernel().map(Checked::Kernel),
+        }
+    }
+
+    /// Compiles and emits, and returns remarks.
+    fn check(&self, args: &CheckArgs) -> Result<Vec<Errors>, Errors> {
+        match self {
+            Checked::Kernel(kernel) => check_kernel(args, kernel).map(|compiled| notes::find_notes(&compiled, kernel)),
+            Checked::Chain(chain) => {
+                let compiled = chain.compile(&ChainSpec::from(args.shader_spec()));
+                compiled.and_then(|compiled| compiled.emit()).map(|_| Vec::new())
+            }
+        }
+    }
 }
 
 /// Returns the kernels to check; those of a folder are sorted by name.

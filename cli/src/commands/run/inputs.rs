@@ -7,10 +7,33 @@ use crate::failure::Failure;
 use glam::{UVec2, Vec4};
 use std::path::Path;
 use straightline_bench::execute::{self, Inputs};
-use straightline_codegen::ir::{Graph, Scalar, Texture, TextureKind};
+use straightline_codegen::ir::{Buffer, Scalar, Texture, TextureKind, Uniform};
 use straightline_codegen::{Compiled, Stage, shorten};
 use straightline_kernels::prelude::Frame;
 use straightline_scene::picture;
+
+/// Everything that a kernel or a chain takes, by name.
+#[derive(Clone, Debug)]
+pub struct Wanted {
+    /// Name of the kernel or chain.
+    pub name: String,
+    pub textures: Vec<Texture>,
+    pub uniforms: Vec<Uniform>,
+    pub buffers: Vec<Buffer>,
+}
+
+impl Wanted {
+    /// Lists what a kernel takes.
+    pub fn by_kernel(compiled: &Compiled) -> Wanted {
+        let graph = &compiled.graph;
+        Wanted {
+            name: compiled.kernel.clone(),
+            textures: graph.textures.clone(),
+            uniforms: graph.uniforms.clone(),
+            buffers: graph.buffers.clone(),
+        }
+    }
+}
 
 /// Reads all inputs on the command line for the kernel in the form in which it runs.
 pub fn read_inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Result<Inputs, Failure> {
@@ -22,10 +45,31 @@ pub fn read_inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Resu
         }
         _ => compiled.in_blocks(),
     };
-    let graph = &compiled.graph;
+    let wanted = Wanted::by_kernel(&compiled);
+    let mut inputs = read_given(given, &wanted)?;
+    inputs.size = given.size.or_else(|| output_size(&wanted, &inputs)).ok_or_else(|| {
+        Failure::Usage(
+            "the output's size is that of a picture, and none is given: say --size, such as 640x360".to_owned(),
+        )
+    })?;
+    if let Some(name) = execute::find_unset_uniform(&compiled, &inputs) {
+        return Err(unset_uniform(&compiled.kernel, name));
+    }
+    Ok(inputs)
+}
+
+/// Returns the error for a uniform that was given no value.
+pub fn unset_uniform(kernel: &str, name: &str) -> Failure {
+    Failure::Usage(format!(
+        "the uniform `{name}` of `{kernel}` has no default: add --uniform {name}=VALUE"
+    ))
+}
+
+/// Reads all inputs on the command line, without a size of the output.
+pub fn read_given(given: &GivenArgs, wanted: &Wanted) -> Result<Inputs, Failure> {
     let mut inputs = Inputs::default();
     for text in &given.input {
-        let (texture, path) = texture_and_path(&compiled, text)?;
+        let (texture, path) = texture_and_path(wanted, text)?;
         let (path, asked) = transfer::split_transfer(path);
         for path in split_paths(path) {
             match texture.scalar {
@@ -48,16 +92,16 @@ pub fn read_inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Resu
             }
         }
     }
-    for texture in &graph.textures {
+    for texture in &wanted.textures {
         complete_texture(&mut inputs, texture)?;
     }
     for (name, text) in &given.uniform {
-        let Some(uniform) = graph.uniforms.iter().find(|u| u.name == *name) else {
+        let Some(uniform) = wanted.uniforms.iter().find(|u| u.name == *name) else {
             return Err(unknown_input(
-                &compiled,
+                wanted,
                 "uniform",
                 name,
-                graph.uniforms.iter().map(|u| u.name.as_str()),
+                wanted.uniforms.iter().map(|u| u.name.as_str()),
             ));
         };
         if inputs.uniforms.iter().any(|(known, _)| known == name) {
@@ -66,29 +110,18 @@ pub fn read_inputs(given: &GivenArgs, stage: Stage, compiled: &Compiled) -> Resu
         inputs = inputs.with_uniform(name, &values::parse_uniform(name, uniform.ty, text)?);
     }
     for (name, text) in &given.buffer {
-        let Some(buffer) = graph.buffers.iter().find(|b| b.name == *name) else {
+        let Some(buffer) = wanted.buffers.iter().find(|b| b.name == *name) else {
             return Err(unknown_input(
-                &compiled,
+                wanted,
                 "buffer",
                 name,
-                graph.buffers.iter().map(|b| b.name.as_str()),
+                wanted.buffers.iter().map(|b| b.name.as_str()),
             ));
         };
         if inputs.buffers.iter().any(|(known, _)| known == name) {
             return Err(Failure::Usage(format!("the buffer `{name}` is given twice")));
         }
         inputs = inputs.with_buffer(name, values::parse_buffer(name, &buffer.element, text)?);
-    }
-    inputs.size = given.size.or_else(|| output_size(graph, &inputs)).ok_or_else(|| {
-        Failure::Usage(
-            "the output's size is that of a picture, and none is given: say --size, such as 640x360".to_owned(),
-        )
-    })?;
-    if let Some(name) = execute::find_unset_uniform(&compiled, &inputs) {
-        return Err(Failure::Usage(format!(
-            "the uniform `{name}` of `{}` has no default: add --uniform {name}=VALUE",
-            compiled.kernel
-        )));
     }
     Ok(inputs)
 }
@@ -106,8 +139,8 @@ fn refuse_varyings(compiled: &Compiled) -> Result<(), Failure> {
 }
 
 /// Returns the size of the first picture for a texture that has the output's size, else of the first picture.
-fn output_size(graph: &Graph, inputs: &Inputs) -> Option<UVec2> {
-    let framed = |name: &str| graph.textures.iter().any(|t| t.framed && t.name == name);
+fn output_size(wanted: &Wanted, inputs: &Inputs) -> Option<UVec2> {
+    let framed = |name: &str| wanted.textures.iter().any(|t| t.framed && t.name == name);
     let sizes = |name: &String, size: Option<UVec2>| size.map(|size| (framed(name), size));
     let images = inputs.images.iter();
     let images = images.filter_map(|(name, layers)| sizes(name, layers.first().map(Frame::size)));
@@ -119,27 +152,27 @@ fn output_size(graph: &Graph, inputs: &Inputs) -> Option<UVec2> {
 }
 
 /// Parses `NAME=FILE` or `FILE`.
-fn texture_and_path<'a, 't>(compiled: &'a Compiled, text: &'t str) -> Result<(&'a Texture, &'t str), Failure> {
-    let textures = &compiled.graph.textures;
+fn texture_and_path<'a, 't>(wanted: &'a Wanted, text: &'t str) -> Result<(&'a Texture, &'t str), Failure> {
+    let textures = &wanted.textures;
     let names = || textures.iter().map(|t| t.name.as_str());
     if let Some((name, path)) = text.split_once('=') {
         if let Some(texture) = textures.iter().find(|t| t.name == name) {
             return Ok((texture, path));
         }
         if !Path::new(text).exists() {
-            return Err(unknown_input(compiled, "texture", name, names()));
+            return Err(unknown_input(wanted, "texture", name, names()));
         }
     }
     match &textures[..] {
         [only] => Ok((only, text)),
         [] => Err(Failure::Usage(format!(
             "`{}` reads no texture: leave --input out, and say the output's --size",
-            compiled.kernel
+            wanted.name
         ))),
         _ => Err(Failure::Usage(format!(
             "say which texture `{}` is for, NAME=FILE: `{}` has {}",
             shorten(text),
-            compiled.kernel,
+            wanted.name,
             join_names(names())
         ))),
     }
@@ -248,10 +281,10 @@ fn add_picture<T: Copy>(
     Ok(())
 }
 
-fn unknown_input<'a>(compiled: &Compiled, what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Failure {
+fn unknown_input<'a>(wanted: &Wanted, what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Failure {
     Failure::Usage(format!(
         "`{}` has no {what} `{}`; it has {}",
-        compiled.kernel,
+        wanted.name,
         shorten(name),
         join_names(known)
     ))

@@ -1,5 +1,6 @@
 //! `run`: runs any kernel on pictures.
 
+mod chain;
 pub mod inputs;
 mod outputs;
 mod transfer;
@@ -16,6 +17,10 @@ use straightline_codegen::{Compiled, Precision};
 
 /// Runs a kernel once and writes its results.
 pub fn run_kernel(args: &RunArgs) -> Result<(), Failure> {
+    if let Some(chain) = args.kernel.locate_chain()? {
+        return chain::run_chain(args, &chain);
+    }
+    args.chain.refuse(&args.kernel.kernel)?;
     let compiled = args.kernel.locate_kernel()?.compile(&args.kernel.options.settings())?;
     let made = run_compiled(args, &compiled, &mut None)?;
     for file in made.files {
@@ -33,7 +38,7 @@ pub struct Made {
 /// Runs a compiled kernel and writes its results. The device is opened on demand, and kept in `gpu`.
 pub fn run_compiled(args: &RunArgs, compiled: &Compiled, gpu: &mut Option<Gpu>) -> Result<Made, Failure> {
     check_requests(args)?;
-    let outs = outputs::parse_outputs(args, compiled)?;
+    let outs = outputs::parse_outputs(args, &outputs::Given::by_kernel(compiled))?;
     let inputs = inputs::read_inputs(&args.given, args.stage, compiled)?;
     for out in &outs {
         files::try_file(&out.path, false).map_err(Failure::from_error)?;

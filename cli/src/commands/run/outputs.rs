@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use straightline_bench::execute::{AllWritten, Written};
-use straightline_codegen::ir::Access;
+use straightline_codegen::ir::{Access, Buffer};
 use straightline_codegen::{Compiled, files, shorten};
 use straightline_scene::picture;
 
@@ -29,18 +29,46 @@ enum What {
     Buffer(String, usize),
 }
 
+/// Everything that a kernel or a chain writes, by name.
+pub struct Given {
+    /// Name of the kernel or chain.
+    pub name: String,
+    pub targets: Vec<String>,
+    /// Buffers, with the number of components of their elements.
+    pub buffers: Vec<(String, usize)>,
+}
+
+impl Given {
+    /// Lists what a kernel writes.
+    pub fn by_kernel(compiled: &Compiled) -> Given {
+        let written = compiled
+            .graph
+            .buffers
+            .iter()
+            .filter(|buffer| buffer.access != Access::Read);
+        let components = |buffer: &Buffer| buffer.value_type().component_count() as usize;
+        Given {
+            name: compiled.kernel.clone(),
+            targets: compiled
+                .graph
+                .written_targets()
+                .map(|target| target.name.clone())
+                .collect(),
+            buffers: written
+                .map(|buffer| (buffer.name.clone(), components(buffer)))
+                .collect(),
+        }
+    }
+}
+
 /// Parses `--out`, which may be given several times: `FILE` for the first target, or `NAME=FILE`.
-pub fn parse_outputs(args: &RunArgs, compiled: &Compiled) -> Result<Vec<Out>, Failure> {
+pub fn parse_outputs(args: &RunArgs, given: &Given) -> Result<Vec<Out>, Failure> {
     let mut outs: Vec<Out> = Vec::new();
     for text in &args.out {
-        let out = parse_output(text, compiled)?;
+        let out = parse_output(text, given)?;
         if outs.iter().any(|other| other.what == out.what) {
             let name = match &out.what {
-                What::Target(k) => compiled
-                    .graph
-                    .written_targets()
-                    .nth(*k)
-                    .map_or("", |target| &target.name),
+                What::Target(k) => &given.targets[*k],
                 What::Buffer(name, _) => name,
             };
             return Err(Failure::Usage(format!("`{name}` is to be written twice")));
@@ -56,23 +84,21 @@ pub fn parse_outputs(args: &RunArgs, compiled: &Compiled) -> Result<Vec<Out>, Fa
     Ok(outs)
 }
 
-fn parse_output(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
-    let graph = &compiled.graph;
+fn parse_output(text: &str, given: &Given) -> Result<Out, Failure> {
     let is_name = |name: &str| name.chars().all(|c| c.is_alphanumeric() || c == '_');
-    let written = || graph.buffers.iter().filter(|buffer| buffer.access != Access::Read);
+    let buffers = given.buffers.iter().map(|(name, _)| name.as_str());
     let (what, path) = match text.split_once('=') {
         Some((name, path)) if is_name(name) => {
-            let target = graph.written_targets().position(|target| target.name == name);
-            let buffer = written().find(|buffer| buffer.name == name);
+            let target = given.targets.iter().position(|target| target == name);
+            let buffer = given.buffers.iter().find(|(buffer, _)| buffer == name);
             let what = match (target, buffer) {
                 (Some(target), _) => What::Target(target),
-                (None, Some(buffer)) => What::Buffer(name.to_owned(), buffer.value_type().component_count() as usize),
+                (None, Some((_, components))) => What::Buffer(name.to_owned(), *components),
                 (None, None) => {
-                    let names = graph.written_targets().map(|target| target.name.as_str());
-                    let names: Vec<&str> = names.chain(written().map(|buffer| buffer.name.as_str())).collect();
+                    let names: Vec<&str> = given.targets.iter().map(String::as_str).chain(buffers).collect();
                     return Err(Failure::Usage(format!(
                         "`{}` gives no `{}`; it gives {}",
-                        compiled.kernel,
+                        given.name,
                         shorten(name),
                         names.join(", ")
                     )));
@@ -80,11 +106,11 @@ fn parse_output(text: &str, compiled: &Compiled) -> Result<Out, Failure> {
             };
             (what, path)
         }
-        _ if graph.written_targets().next().is_none() => {
-            let names: Vec<&str> = written().map(|buffer| buffer.name.as_str()).collect();
+        _ if given.targets.is_empty() => {
+            let names: Vec<&str> = buffers.collect();
             return Err(Failure::Usage(format!(
                 "`{}` gives no picture, and writes {}: say NAME=FILE.csv",
-                compiled.kernel,
+                given.name,
                 names.join(", ")
             )));
         }

@@ -2,6 +2,7 @@
 //! of them.
 
 mod all;
+mod chains;
 pub mod error;
 mod film;
 mod frame;
@@ -49,6 +50,7 @@ pub fn run_study(args: &StudyArgs) -> Result<(), Failure> {
         Some(Study::Hard(args)) if args.list => return hard::list_cases(args),
         Some(Study::Hard(args)) => hard::run_hard_cases(common, args, &mut progress)?,
         Some(Study::Isa(args)) => isa::measure_isa(common, args, &mut progress)?,
+        Some(Study::Chains(args)) => return chains::measure_chains(common, args, &mut progress),
         Some(Study::Precision(args)) => return precision::find_precision(common, args, &mut progress),
         Some(Study::Sweep(args)) => return sweep::measure_sweep(common, args, &mut progress),
         Some(Study::Merge(args)) => return sweep::merge_shards(common, args),

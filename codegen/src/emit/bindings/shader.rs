@@ -286,11 +286,11 @@ fn value_type(ty: ValueType) -> TokenStream {
 }
 
 /// Returns the name of a variant without fields, as `Debug` prints it.
-fn variant_name(value: &impl std::fmt::Debug) -> proc_macro2::Ident {
+pub(super) fn variant_name(value: &impl std::fmt::Debug) -> proc_macro2::Ident {
     format_ident!("{value:?}")
 }
 
-fn quote_option(value: Option<TokenStream>) -> TokenStream {
+pub(super) fn quote_option(value: Option<TokenStream>) -> TokenStream {
     match value {
         Some(value) => quote! { Some(#value) },
         None => quote! { None },

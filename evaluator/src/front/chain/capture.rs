@@ -1,5 +1,6 @@
 //! Variables of a chain that a pass mentions.
 
+use super::syntax::identifier;
 use super::value::Value;
 use proc_macro2::{Delimiter, Ident, Literal, TokenStream, TokenTree};
 use std::collections::BTreeMap;
@@ -80,7 +81,7 @@ fn capture_into(
                         match element {
                             Some(Element::Index(index)) if (0..images.len() as i64).contains(&index) => {
                                 let element = elements.name(&name, index);
-                                made.push(TokenTree::Ident(Ident::new(&element, ident.span())));
+                                made.push(TokenTree::Ident(identifier(&element, ident.span())));
                                 values.insert(element, Value::Image(images[index as usize].clone()));
                             }
                             Some(Element::Length) => {

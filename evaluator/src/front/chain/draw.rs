@@ -19,9 +19,12 @@ impl Walk<'_> {
     /// Makes a pass of `draw(size, |pixel| ..)`.
     pub(super) fn draw(&mut self, call: &syn::ExprCall, place: Place<'_>) -> Result<Value, Box<Diagnostic>> {
         let arguments: Vec<&syn::Expr> = call.args.iter().collect();
+        let help = "write `draw(color.size(), |pixel| ..)`";
         let [size, syn::Expr::Closure(closure)] = arguments.as_slice() else {
-            let help = "write `draw(color.size(), |pixel| ..)`";
             return Err(refused(self.file, call, "`draw` with such arguments", help));
+        };
+        let Some(pixel) = closure_parameter(closure) else {
+            return Err(refused(self.file, closure, "a closure without one parameter", help));
         };
         let known = self.known(size)?;
         if known.is_none() && !self.errors.is_empty() {
@@ -56,7 +59,7 @@ impl Walk<'_> {
         }
         let captured = self.captured(closure.body.to_token_stream(), &*closure.body)?;
         let index = self.chain.pictures.len();
-        self.add_pass(call, closure, captured, &ty, &size, place)?;
+        self.add_pass(call, (closure, pixel), captured, &ty, &size, place)?;
         Ok(Value::Image(Image {
             source: Source::Picture(index),
             ty,
@@ -66,7 +69,7 @@ impl Walk<'_> {
     pub(super) fn add_pass(
         &mut self,
         call: &syn::ExprCall,
-        closure: &syn::ExprClosure,
+        (closure, pixel): (&syn::ExprClosure, &syn::Pat),
         captured: Captured,
         ty: &PictureType,
         size: &SizeRule,
@@ -82,7 +85,7 @@ impl Walk<'_> {
         };
         let parts = item::PassParts {
             entry: Ident::new(&entry, call.func.span()),
-            pixel: closure_parameter(closure),
+            pixel: pixel.clone(),
             body: captured.tokens,
             texel: ty.texel.clone(),
             values: captured.values,

@@ -3,6 +3,7 @@
 use super::rule::{as_rust, inputs_of};
 use super::signature::{ParamKind, param_kind, param_name};
 use super::state::Let;
+use super::syntax::identifier;
 use super::value::Value;
 use super::{Source, signature};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -29,8 +30,8 @@ pub fn options_only(chain: &syn::ItemFn) -> syn::ItemFn {
 pub struct PassParts<'a> {
     /// Name of the kernel.
     pub entry: Ident,
-    /// Parameter of the closure, if it takes the pixel by a name.
-    pub pixel: Option<Ident>,
+    /// Pattern of the closure's parameter.
+    pub pixel: syn::Pat,
     /// Body of the closure.
     pub body: TokenStream,
     /// Type of a texel.
@@ -72,7 +73,7 @@ pub fn make_kernel(parts: PassParts<'_>) -> Result<Made, TwoValues> {
     let mut has_options = false;
     let mut sizes: Vec<(String, TokenStream)> = Vec::new();
     for (name, value) in &values {
-        let ident = Ident::new(name, at);
+        let ident = identifier(name, at);
         match value {
             Value::Image(image) => {
                 let ty = &image.ty.ty;
@@ -92,11 +93,11 @@ pub fn make_kernel(parts: PassParts<'_>) -> Result<Made, TwoValues> {
                 }
                 has_options |= param_kind(ty) == ParamKind::Options;
                 if taken.insert(outer.clone()) {
-                    let outer = Ident::new(outer, at);
+                    let outer = identifier(outer, at);
                     params.push(quote_spanned!(at=> #outer: #ty));
                 }
                 if name != outer {
-                    let outer = Ident::new(outer, at);
+                    let outer = identifier(outer, at);
                     consts.push(quote_spanned!(at=> let #ident = #outer;));
                 }
             }
@@ -125,12 +126,12 @@ pub fn make_kernel(parts: PassParts<'_>) -> Result<Made, TwoValues> {
         }
     }
     for (name, tokens) in sizes {
-        let ident = Ident::new(&name, at);
+        let ident = identifier(&name, at);
         consts.push(quote_spanned!(at=> let #ident = #tokens;));
     }
     let pixel = Ident::new(PIXEL, at);
-    let renamed = parts.pixel.filter(|name| *name != PIXEL);
-    let renamed = renamed.map(|name| quote_spanned!(at=> let #name = #pixel;));
+    let pattern = parts.pixel.to_token_stream();
+    let renamed = (pattern.to_string() != PIXEL).then(|| quote_spanned!(at=> let #pattern = #pixel;));
     let (entry, texel, body, docs) = (&parts.entry, &parts.texel, &parts.body, &parts.docs);
     let lets = lets.iter().map(|each| &each.captured.tokens);
     let tokens = quote_spanned! {at=>

@@ -2,7 +2,7 @@
 
 use super::refused;
 use super::state::{Known, Place, Walk};
-use super::syntax::{element_type, variable_of};
+use super::syntax::{element_type, identifier, variable_of};
 use super::value::Value;
 use crate::diagnostic::Diagnostic;
 use proc_macro2::Ident;
@@ -22,7 +22,7 @@ impl Walk<'_> {
         let method = call.method.to_string();
         match (method.as_str(), call.args.iter().collect::<Vec<_>>().as_slice()) {
             ("push", [pushed]) => {
-                let ident = Ident::new(&name, call.method.span());
+                let ident = identifier(&name, call.method.span());
                 let place = Place {
                     name: Some(&ident),
                     ty: element.as_ref(),

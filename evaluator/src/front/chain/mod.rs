@@ -20,7 +20,7 @@ mod value;
 mod values;
 mod walk;
 
-use super::{Parsed, add_library, collect_items, purposes, read_syntax, token_span};
+use super::{Parsed, add_library, collect_items, inner, purposes, read_syntax, token_span};
 use crate::diagnostic::{Code, Diagnostic, Errors, File, Span};
 use ::std::sync::Arc;
 use straightline_kernels::OptionValues;
@@ -28,7 +28,7 @@ use straightline_manifest::Format;
 use straightline_manifest::chain::SizeRule;
 
 pub use read::chain_of;
-pub use signature::picture_type;
+pub use signature::returns_pictures;
 
 /// Most passes of a chain.
 const MOST_PASSES: usize = 256;
@@ -94,7 +94,7 @@ pub enum Source {
 ///
 /// A file that is not Rust, and every statement of the function that no chain has.
 pub fn read_chain(files: &Arc<Vec<File>>, name: &str, options: &OptionValues) -> Result<Chain, Errors> {
-    let syntax = read_syntax(files)?;
+    let syntax = read_hoisted(files)?;
     let walked = walk::walk_chain(&syntax, name, options);
     walked
         .map(|walked| walked.chain)
@@ -107,7 +107,7 @@ pub fn read_chain(files: &Arc<Vec<File>>, name: &str, options: &OptionValues) ->
 ///
 /// As of [`read_chain`] and [`parse`](super::parse).
 pub fn parse_pass(files: &Arc<Vec<File>>, chain: &str, options: &OptionValues, entry: &str) -> Result<Parsed, Errors> {
-    let syntax = read_syntax(files)?;
+    let syntax = read_hoisted(files)?;
     let walked = walk::walk_chain(&syntax, chain, options).map_err(|found| Errors::new(found, files))?;
     let kernel = walked.kernels.into_iter().find(|kernel| kernel.sig.ident == entry);
     lower_in_place(files, syntax, chain, kernel, entry)
@@ -119,9 +119,18 @@ pub fn parse_pass(files: &Arc<Vec<File>>, chain: &str, options: &OptionValues, e
 ///
 /// As of [`parse`](super::parse).
 pub fn parse_options(files: &Arc<Vec<File>>, chain: &str) -> Result<Parsed, Errors> {
-    let syntax = read_syntax(files)?;
+    let syntax = read_hoisted(files)?;
     let stub = read::find_function(&syntax, chain).map(|(_, function)| item::options_only(function));
     lower_in_place(files, syntax, chain, stub, chain)
+}
+
+/// Reads the syntax of all files. Items inside of functions, which passes need too, stand outside.
+fn read_hoisted(files: &Arc<Vec<File>>) -> Result<Vec<(u32, syn::File)>, Errors> {
+    let mut syntax = read_syntax(files)?;
+    for (_, parsed) in &mut syntax {
+        inner::take_all(&mut parsed.items);
+    }
+    Ok(syntax)
 }
 
 /// Lowers `kernel`, which stands in the files in place of the chain.

@@ -96,7 +96,7 @@ pub fn as_rust(rule: &SizeRule) -> String {
         };
         stack.push(text);
     }
-    format!("{}.max(UVec2::ONE)", stack.pop().unwrap_or_default())
+    stack.pop().unwrap_or_default()
 }
 
 /// Inputs that a rule needs.

@@ -47,10 +47,13 @@ pub fn picture_type(ty: &syn::Type) -> Option<PictureType> {
     let syn::PathArguments::AngleBracketed(arguments) = &last.arguments else {
         return None;
     };
+    let syn::GenericArgument::Type(texel) = arguments.args.first()? else {
+        return None;
+    };
     Some(PictureType {
         is_frame,
         ty: ty.clone(),
-        texel: arguments.args.first()?.to_token_stream(),
+        texel: texel.to_token_stream(),
     })
 }
 

@@ -1,6 +1,6 @@
 //! Small questions about the syntax of a chain.
 
-use proc_macro2::{Ident, TokenStream, TokenTree};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 
 use super::value::Value;
@@ -128,14 +128,20 @@ pub fn arm_matches(pattern: &syn::Pat, value: &Value) -> bool {
     }
 }
 
-/// Name of the parameter of a closure; `None` of `_`.
-pub fn closure_parameter(closure: &syn::ExprClosure) -> Option<Ident> {
-    let pattern = match closure.inputs.first()? {
-        syn::Pat::Type(typed) => &typed.pat,
-        other => other,
-    };
-    match pattern {
-        syn::Pat::Ident(name) => Some(name.ident.clone()),
+/// An identifier, which is raw if its name is.
+pub fn identifier(name: &str, at: Span) -> Ident {
+    match name.strip_prefix("r#") {
+        Some(raw) => Ident::new_raw(raw, at),
+        None => Ident::new(name, at),
+    }
+}
+
+/// Pattern of the only parameter of a closure, without its type.
+pub fn closure_parameter(closure: &syn::ExprClosure) -> Option<&syn::Pat> {
+    let mut inputs = closure.inputs.iter();
+    match (inputs.next(), inputs.next()) {
+        (Some(syn::Pat::Type(typed)), None) => Some(&typed.pat),
+        (Some(pattern), None) => Some(pattern),
         _ => None,
     }
 }

@@ -1,6 +1,7 @@
 //! rustc as the oracle: kernels are compiled natively in batches and compared with the interpreter, bit for bit.
 
 mod batch;
+pub mod chains;
 mod change;
 mod compare;
 pub mod coverage;

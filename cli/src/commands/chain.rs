@@ -1,0 +1,172 @@
+//! `emit` and `explain` of chains of passes.
+
+use super::emit::for_engine;
+use crate::args::{EmitArgs, ExplainArgs};
+use crate::failure::{Failure, format_count};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use straightline_codegen::chain::{Chain, CompiledChain, EmittedChain, PassPlan, PicturePlan};
+use straightline_codegen::{Format, ShaderSpec, files};
+use straightline_table::{Column, Table};
+
+/// Writes the shaders of a chain and its plan; prints the paths.
+pub fn emit_chain(args: &EmitArgs, chain: &Chain) -> Result<(), Failure> {
+    if args.name.is_some() {
+        return Err(Failure::Usage(
+            "the files of a chain have the names of its function and pictures: leave --name out".to_owned(),
+        ));
+    }
+    let compiled = chain.compile(&args.chain.chain_spec(args.shader_spec()))?;
+    let named = match &args.engine {
+        Some(engine) => engine_files(args, chain, &compiled, engine)?,
+        None => compiled.emit()?.named_files(),
+    };
+    let written = files::write_all(&args.out, &named).map_err(Failure::from_error)?;
+    for file in written {
+        outln!("{}", file.display());
+    }
+    for (picture, reason) in &compiled.kept {
+        errln!("note: the picture `{picture}` is stored: {reason}");
+    }
+    Ok(())
+}
+
+/// Returns the files for an engine, which takes a chain of which one pass is left.
+fn engine_files(
+    args: &EmitArgs,
+    chain: &Chain,
+    compiled: &CompiledChain,
+    engine: &str,
+) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
+    let [pass] = compiled.passes.as_slice() else {
+        return Err(Failure::Usage(format!(
+            "`{}` has {} passes, and the folder of `{engine}` takes one: fuse them with `--fuse all` where they can be, or \
+             emit them without --engine",
+            compiled.name,
+            compiled.passes.len()
+        )));
+    };
+    let binds = args.bind.iter().cloned().collect();
+    let request = (args.shader_spec().emit, binds);
+    for_engine(
+        request,
+        &chain.options()?,
+        compiled.kernel_of(pass),
+        engine,
+        &compiled.name,
+    )
+}
+
+/// Prints the passes of a chain, with what each reads and costs.
+pub fn explain_chain(args: &ExplainArgs, chain: &Chain) -> Result<(), Failure> {
+    let unfit = [
+        ("--draw", args.draw.is_some()),
+        ("--isa", args.isa.is_some()),
+        ("--dump", args.dump),
+    ];
+    if let Some((name, _)) = unfit.iter().find(|(_, given)| *given) {
+        return Err(Failure::Usage(format!(
+            "{name} is for kernels, and `{}` has several",
+            chain.name()
+        )));
+    }
+    let mut shader = ShaderSpec::new();
+    shader.settings = args.kernel.options.settings();
+    shader.emit = shader.emit.precision(args.precision).accept_loss(true);
+    let compiled = chain.compile(&args.chain.chain_spec(shader))?;
+    let emitted = compiled.emit()?;
+    match args.json {
+        true => outln!("{:#}", to_json(&compiled, &emitted)),
+        false => print(&compiled, &emitted),
+    }
+    Ok(())
+}
+
+fn print(compiled: &CompiledChain, emitted: &EmittedChain) {
+    let plan = &emitted.plan;
+    outln!("{}: {}\n", compiled.name, compiled.summary);
+    let rows = plan.passes.iter().zip(plan.pictures.iter());
+    let counts = |pass: &PassPlan| emitted.shaders[&*pass.shader].emitted.manifest.counts.clone();
+    let sources = |pass: &PassPlan| {
+        let reads: Vec<&str> = pass.reads.iter().map(|read| &*read.from).collect();
+        reads.join(" ")
+    };
+    let table = Table::of(rows)
+        .column(Column::new("pass").left(), |(pass, _)| pass.name.to_string())
+        .column(Column::new("shader").left(), |(pass, _)| pass.shader.to_string())
+        .column(Column::new("size").left(), |(_, picture)| picture.size.to_string())
+        .column(Column::new("format").left(), |(_, picture)| picture.format.to_string())
+        .column(Column::new("reads").left(), |(pass, _)| sources(pass))
+        .column("statements", |(pass, _)| counts(pass).statements.to_string())
+        .column("texel reads", |(pass, _)| {
+            let counts = counts(pass);
+            (counts.texture_reads + counts.colour_reads).to_string()
+        })
+        .finish();
+    out!("{}", table.to_text());
+    let stored = plan.pictures.iter().filter_map(|picture| picture.memory);
+    let textures = stored.max().map_or(0, |last| last as usize + 1);
+    let (passes, shaders) = (plan.passes.len(), emitted.shaders.len());
+    outln!(
+        "\n{passes} passes of {}; {} between them",
+        format_count(shaders, "shader"),
+        format_count(textures, "texture")
+    );
+    if let Some([all, shared]) = bytes_at_full_hd(&plan.pictures) {
+        outln!(
+            "at 1920x1080: {:.1} MB of textures between passes, {:.1} MB if each picture had its own",
+            shared as f64 / 1e6,
+            all as f64 / 1e6
+        );
+    }
+    if !compiled.fused.is_empty() {
+        outln!("computed where they are read: {}", compiled.fused.join(", "));
+    }
+    for (picture, reason) in &compiled.kept {
+        outln!("`{picture}` is stored: {reason}");
+    }
+}
+
+/// Bytes of all pictures between passes, and of the textures that hold them, if every input has 1920x1080 texels.
+fn bytes_at_full_hd(pictures: &[PicturePlan]) -> Option<[u64; 2]> {
+    let (mut all, mut shared, mut known) = (0, 0, Vec::new());
+    for picture in pictures.iter() {
+        let Some(memory) = picture.memory else {
+            continue;
+        };
+        let [width, height] = picture.size.evaluate(&|_| Some([1920, 1080])).ok()?;
+        let bytes = u64::from(width) * u64::from(height) * bytes_per_texel(picture.format);
+        all += bytes;
+        if !known.contains(&memory) {
+            known.push(memory);
+            shared += bytes;
+        }
+    }
+    Some([all, shared])
+}
+
+fn bytes_per_texel(format: Format) -> u64 {
+    let each = match format {
+        Format::Rgba8Unorm => 1,
+        Format::Rgba16Float => 2,
+        _ => 4,
+    };
+    u64::from(format.components()) * each
+}
+
+fn to_json(compiled: &CompiledChain, emitted: &EmittedChain) -> Value {
+    let shaders = emitted.shaders.iter().map(|(name, pass)| {
+        let manifest = &pass.emitted.manifest;
+        (
+            name.clone(),
+            json!({ "kernel": pass.kernel, "counts": manifest.counts }),
+        )
+    });
+    json!({
+        "chain": emitted.plan.chain,
+        "plan": emitted.plan,
+        "shaders": shaders.collect::<serde_json::Map<_, _>>(),
+        "fused": compiled.fused,
+        "stored": compiled.kept.iter().map(|(name, reason)| json!({ "picture": name, "reason": reason })).collect::<Vec<_>>(),
+    })
+}
