@@ -88,7 +88,7 @@ impl Built {
     fn name(&self) -> &str {
         match self {
             Built::Shader(shader) => &shader.name,
-            Built::Chain(chain) => &chain.0.name,
+            Built::Chain(chain) => &chain.1.plan.chain,
         }
     }
 
@@ -106,9 +106,18 @@ fn build(config: &KernelConfig) -> Result<Built, Error> {
     if let Source::File(path) = &config.source
         && let Some(chain) = Chain::from_file(path, config.function.as_deref()).map_err(failed)?
     {
+        check_name(config.name.as_deref().unwrap_or(chain.name()))?;
         return build_chain(config, chain).map_err(failed);
     }
     build_shader(config).map(|shader| Built::Shader(Box::new(shader)))
+}
+
+/// Refuses a name that no module can have.
+fn check_name(name: &str) -> Result<(), Error> {
+    match syn::parse_str::<syn::Ident>(&raw_name(name)) {
+        Ok(_) => Ok(()),
+        Err(_) => Err(Error::from_problem(Problem::Name(name.to_owned()))),
+    }
 }
 
 fn build_chain(config: &KernelConfig, chain: Chain) -> Result<Built, Errors> {
@@ -119,7 +128,10 @@ fn build_chain(config: &KernelConfig, chain: Chain) -> Result<Built, Errors> {
     let mut spec = ChainSpec::from(config.spec.clone().target(Target::Wgsl)).fuse(config.fuse.clone());
     spec.pictures = config.pictures;
     let compiled = chain.compile(&spec)?;
-    let emitted = compiled.emit()?;
+    let mut emitted = compiled.emit()?;
+    if let Some(name) = &config.name {
+        emitted = emitted.renamed(name);
+    }
     Ok(Built::Chain(Box::new((compiled, emitted))))
 }
 
@@ -137,9 +149,7 @@ fn build_shader(config: &KernelConfig) -> Result<BuiltShader, Error> {
         .fold(kernel, |kernel, path| kernel?.with_file(path));
     let kernel = kernel.map_err(|e| Error::from_problem(Problem::Kernel(e)))?;
     let name = config.name.clone().unwrap_or_else(|| kernel.name().to_owned());
-    if syn::parse_str::<syn::Ident>(&raw_name(&name)).is_err() {
-        return Err(Error::from_problem(Problem::Name(name)));
-    }
+    check_name(&name)?;
     // The bindings include the WGSL.
     let spec = config.spec.clone().target(Target::Wgsl);
     let (compiled, emitted) = spec

@@ -1,6 +1,6 @@
 //! `emit` and `explain` of chains of passes.
 
-use super::emit::for_engine;
+use super::emit::{check_name, for_engine};
 use crate::args::{EmitArgs, ExplainArgs};
 use crate::failure::{Failure, format_count};
 use serde_json::{Value, json};
@@ -11,15 +11,12 @@ use straightline_table::{Column, Table};
 
 /// Writes the shaders of a chain and its plan; prints the paths.
 pub fn emit_chain(args: &EmitArgs, chain: &Chain) -> Result<(), Failure> {
-    if args.name.is_some() {
-        return Err(Failure::Usage(
-            "the files of a chain have the names of its function and pictures: leave --name out".to_owned(),
-        ));
-    }
+    let name = args.name.as_deref().unwrap_or(chain.name());
+    check_name(name)?;
     let compiled = chain.compile(&args.chain.chain_spec(args.shader_spec()))?;
     let named = match &args.engine {
-        Some(engine) => engine_files(args, chain, &compiled, engine)?,
-        None => compiled.emit()?.named_files(),
+        Some(engine) => engine_files(args, chain, (&compiled, name), engine)?,
+        None => compiled.emit()?.renamed(name).named_files(),
     };
     let written = files::write_all(&args.out, &named).map_err(Failure::from_error)?;
     for file in written {
@@ -35,7 +32,7 @@ pub fn emit_chain(args: &EmitArgs, chain: &Chain) -> Result<(), Failure> {
 fn engine_files(
     args: &EmitArgs,
     chain: &Chain,
-    compiled: &CompiledChain,
+    (compiled, name): (&CompiledChain, &str),
     engine: &str,
 ) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
     let [pass] = compiled.passes.as_slice() else {
@@ -48,13 +45,7 @@ fn engine_files(
     };
     let binds = args.bind.iter().cloned().collect();
     let request = (args.shader_spec().emit, binds);
-    for_engine(
-        request,
-        &chain.options()?,
-        compiled.kernel_of(pass),
-        engine,
-        &compiled.name,
-    )
+    for_engine(request, &chain.options()?, compiled.kernel_of(pass), engine, name)
 }
 
 /// Prints the passes of a chain, with what each reads and costs.

@@ -48,12 +48,7 @@ pub fn write_shaders(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Res
         return Err(Failure::Usage("--accept-loss goes with --precision f16".to_owned()));
     }
     let name = args.name.as_deref().unwrap_or(&compiled.kernel);
-    if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || "_-.".contains(c)) || name.starts_with('.')
-    {
-        return Err(Failure::Usage(format!(
-            "`{name}` cannot name files: use letters, digits, `_`, `-` and `.`"
-        )));
-    }
+    check_name(name)?;
     if let Some(engine) = &args.engine {
         let request = (options, args.bind.iter().cloned().collect());
         let files = for_engine(request, &kernel.options()?, compiled, engine, name)?;
@@ -61,6 +56,17 @@ pub fn write_shaders(args: &EmitArgs, Ready { kernel, compiled }: &Ready) -> Res
     }
     let emitted = compiled.emit(&options)?;
     write_all(args, compiled, &emitted.named_files(name))
+}
+
+/// Refuses a name that no file can have everywhere.
+pub fn check_name(name: &str) -> Result<(), Failure> {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
+    match name.is_empty() || !name.chars().all(allowed) || name.starts_with('.') {
+        true => Err(Failure::Usage(format!(
+            "`{name}` cannot name files: use letters, digits, `_`, `-` and `.`"
+        ))),
+        false => Ok(()),
+    }
 }
 
 /// Returns the files for an engine.

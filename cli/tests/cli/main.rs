@@ -4,6 +4,7 @@ mod all;
 mod budget;
 mod captions;
 mod capture;
+mod chains;
 mod check;
 #[path = "../common/mod.rs"]
 mod common;

@@ -27,6 +27,25 @@ pub struct EmittedPass {
 }
 
 impl EmittedChain {
+    /// Gives the chain and its files another name, for variants of one chain.
+    pub fn renamed(mut self, name: &str) -> EmittedChain {
+        let old = self.plan.chain.to_string();
+        let rename = |shader: &str| match shader.strip_prefix(old.as_str()) {
+            Some(rest) => format!("{name}{rest}"),
+            None => shader.to_owned(),
+        };
+        for pass in self.plan.passes.to_mut() {
+            pass.shader = rename(&pass.shader).into();
+        }
+        self.shaders = self
+            .shaders
+            .into_iter()
+            .map(|(shader, pass)| (rename(&shader), pass))
+            .collect();
+        self.plan.chain = name.to_owned().into();
+        self
+    }
+
     /// Returns the files by name: `NAME.chain.json`, and the texts and the manifest of each shader.
     pub fn named_files(&self) -> BTreeMap<String, Vec<u8>> {
         let mut files = BTreeMap::new();

@@ -152,6 +152,35 @@ fn bloom_computes_the_bits_of_rust_with_every_option() {
     }
 }
 
+/// The first example of the page is a chain, of as many passes as the page says.
+#[test]
+fn the_page_shows_a_chain() {
+    let page = include_str!("../../../docs/chains.md");
+    let (_, rest) = page.split_once("```rust\n").expect("an example");
+    let (text, _) = rest.split_once("```").expect("its end");
+    let chain = Chain::from_text("glow.rs", text, "glow").compile(&ChainSpec::default());
+    let emitted = chain
+        .and_then(|chain| chain.emit())
+        .unwrap_or_else(|errors| panic!("{}", errors.render(false)));
+    let names: Vec<String> = emitted.named_files().into_keys().collect();
+    assert_eq!(
+        names,
+        [
+            "glow.chain.json",
+            "glow.json",
+            "glow.wgsl",
+            "glow_small.json",
+            "glow_small.wgsl"
+        ]
+    );
+    for name in names
+        .iter()
+        .filter(|name| name.ends_with(".wgsl") || name.contains("chain"))
+    {
+        assert!(page.contains(name.as_str()), "docs/chains.md names {name}");
+    }
+}
+
 /// Random chains are what rustc makes of them, stored, fused and looped.
 #[test]
 fn random_chains_compute_the_bits_of_rust() {

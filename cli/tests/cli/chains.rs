@@ -1,0 +1,142 @@
+//! Chains of passes, as each command takes them.
+
+use crate::common;
+
+use common::{example, fails, finishes, here, is_empty, scratch, straightline, write};
+use straightline_manifest::chain::ChainPlan;
+
+fn bloom() -> String {
+    here("examples/chains/bloom.rs")
+}
+
+#[test]
+fn a_chain_is_checked_explained_and_listed() {
+    assert!(finishes(&["check", &bloom()]).contains("no errors"));
+    let listed = finishes(&["list", &bloom()]);
+    assert!(
+        listed.contains("a chain of passes") && listed.contains("levels"),
+        "{listed}"
+    );
+    let explained = finishes(&["explain", &bloom(), "--set", "levels=3", "--fuse", "auto"]);
+    for text in [
+        "6 passes of 4 shaders",
+        "color.size() / 8",
+        "`light` is stored: a sampler reads it",
+    ] {
+        assert!(explained.contains(text), "no `{text}` in:\n{explained}");
+    }
+    let json = finishes(&["explain", &here("examples/chains/blur.rs"), "--fuse", "all", "--json"]);
+    assert!(json.contains("\"fused\": [\n    \"rows\"\n  ]"), "{json}");
+}
+
+#[test]
+fn a_chain_is_emitted_with_its_plan() {
+    let folder = scratch("chain-emit");
+    let out = folder.to_str().expect("a path of text");
+    let printed = finishes(&[
+        "emit",
+        &bloom(),
+        "--target",
+        "wgsl,hlsl",
+        "--name",
+        "glow",
+        "--out",
+        out,
+    ]);
+    assert_eq!(printed.lines().count(), 4 * 3 + 1, "{printed}");
+    let text = std::fs::read_to_string(folder.join("glow.chain.json")).expect("a plan");
+    let plan = ChainPlan::from_json(&text).unwrap_or_else(|e| panic!("{e}"));
+    plan.check().unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(plan.passes.len(), 12);
+    assert_eq!(plan.shaders(), ["glow_light", "glow_down", "glow_up", "glow"]);
+    for shader in plan.shaders() {
+        let manifest = std::fs::read_to_string(folder.join(format!("{shader}.json"))).expect("a manifest");
+        assert!(manifest.contains(&format!("\"wgsl\": \"{shader}.wgsl\"")), "{manifest}");
+    }
+}
+
+#[test]
+fn both_executors_draw_a_chain() {
+    let folder = scratch("chain-run");
+    let [gpu, cpu] = ["gpu.png", "cpu.png"].map(|name| folder.join(name).display().to_string());
+    let picture = here("docs/detail.png");
+    let words = [
+        "run",
+        &bloom(),
+        "--input",
+        &picture,
+        "--uniform",
+        "threshold=0.5",
+        "--uniform",
+        "strength=0.4",
+    ];
+    let set = ["--set", "levels=2"];
+    finishes(&[&words[..], &set, &["--out", &gpu]].concat());
+    finishes(&[&words[..], &set, &["--executor", "cpu", "--out", &cpu]].concat());
+    let compared = finishes(&["compare", &gpu, &cpu]);
+    let found = compared
+        .split_whitespace()
+        .filter_map(|word| word.parse::<f64>().ok())
+        .next();
+    assert!(
+        found.is_some_and(|decibels| decibels > 40.0) || compared.contains("equal"),
+        "{compared}"
+    );
+}
+
+#[test]
+fn requests_that_mean_nothing_are_refused() {
+    let folder = scratch("chain-refused");
+    let out = folder.to_str().expect("a path of text");
+    fails(
+        &["emit", &example("median"), "--fuse", "all", "--out", out],
+        2,
+        &["is one pass", "--fuse"],
+    );
+    fails(
+        &["emit", &bloom(), "--engine", "godot", "--out", out],
+        2,
+        &["12 passes", "--fuse all"],
+    );
+    fails(
+        &["emit", &bloom(), "--fuse", "light", "--out", out],
+        1,
+        &["cannot be fused", "a sampler reads it"],
+    );
+    fails(
+        &["run", &bloom(), "--input", &here("docs/detail.png"), "--out", "x.png"],
+        2,
+        &["--uniform threshold=VALUE"],
+    );
+    fails(&["explain", &bloom(), "--draw", "x.svg"], 2, &["--draw is for kernels"]);
+    let broken = write(
+        &folder,
+        "broken.rs",
+        "pub fn broken(color: &Texture<Vec4>) -> Texture<Vec4> { color }\n",
+    );
+    let output = straightline(&["check", &broken]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("E0412"));
+    std::fs::remove_file(&broken).expect("the file");
+    assert!(is_empty(&folder));
+}
+
+/// An engine takes a chain of which one pass is left.
+#[test]
+fn an_engine_takes_a_fused_chain() {
+    let folder = scratch("chain-engine");
+    let out = folder.to_str().expect("a path of text");
+    finishes(&[
+        "emit",
+        &here("examples/chains/blur.rs"),
+        "--set",
+        "radius=1",
+        "--fuse",
+        "all",
+        "--engine",
+        "godot",
+        "--out",
+        out,
+    ]);
+    assert!(!is_empty(&folder));
+}
