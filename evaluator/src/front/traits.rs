@@ -180,7 +180,7 @@ impl Items {
             check.refuse(
                 path.span(),
                 &format!("`{trait_name}` written by hand"),
-                "derive it where it can be derived, or write a method of the type and call it by its name",
+                "write a method of the type and call it by its name",
             );
             self.note(&of, TokenStream::new(), check.take_current());
             return self.refuse_functions(item, &of, &[]);
