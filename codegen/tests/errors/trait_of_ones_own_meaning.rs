@@ -1,12 +1,13 @@
-use std::cmp::Ordering;
-use std::ops::Mul;
+use std::ops::{Deref, Mul};
 
 #[derive(Clone, Copy, PartialEq)]
 struct Level(f32);
 
-impl PartialOrd for Level {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        self.0.partial_cmp(&other.0)
+impl Deref for Level {
+    type Target = f32;
+
+    fn deref(&self) -> &f32 {
+        &self.0
     }
 }
 
@@ -34,5 +35,5 @@ pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let here = color.load(pixel);
     let a = [here.x, here.y].doubled();
     let b = here.halved();
-    if Level(here.x) < Level(here.y) { here * a[0] } else { b }
+    if *Level(here.x) < *Level(here.y) { here * a[0] } else { b }
 }

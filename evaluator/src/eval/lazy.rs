@@ -21,6 +21,13 @@ const CONSUMERS: &[&str] = &[
 impl Evaluator<'_> {
     /// Evaluates a method of an iterator whose number of values is a runtime value; `None` for any other value or method.
     pub fn lazy_method(&mut self, value: &Value, name: &str, args: &[Value], span: Span) -> Eval<Option<Value>> {
+        let path = name;
+        let name = path.rsplit("::").next().unwrap_or(path);
+        if !path.contains("::")
+            && let Some(cut) = self.zip_or_cut_lazily(value, name, args, span)?
+        {
+            return Ok(Some(cut));
+        }
         let (source, mut stages) = match value {
             Value::Range(_) => (value.clone(), Vec::new()),
             Value::Struct { ty, .. } if ty.as_str() == LAZY => split_stages(value.clone()),
@@ -30,21 +37,29 @@ impl Evaluator<'_> {
         if stages.is_empty() && (self.known_int(&range.start).is_some() && self.known_int(&range.end).is_some()) {
             return Ok(None);
         }
-        let name = name.rsplit("::").next().unwrap_or(name);
+        let skips = stages.iter().any(Stage::skips_values);
         let stage = match (name, args) {
             ("iter" | "into_iter" | "by_ref" | "copied" | "cloned", []) => return Ok(Some(value.clone())),
             ("map", [f]) => Stage::Map(f.clone()),
             ("filter", [f]) => Stage::Filter(f.clone()),
             ("filter_map", [f]) => Stage::FilterMap(f.clone()),
-            ("enumerate", [])
-                if range.step == 1 && !range.down && !range.reversed && !stages.iter().any(Stage::skips_values) =>
-            {
+            ("enumerate", []) if range.step == 1 && !range.down && !range.reversed && !skips => {
                 Stage::Enumerate((*range.start).clone())
+            }
+            ("enumerate", []) if !skips => return self.enumerate_lazily(value, span),
+            ("step_by", [_]) if !stages.is_empty() && !skips => return self.step_lazily(value, args, span),
+            ("rev", []) if !stages.is_empty() => {
+                let range = self.range_method(range, name, args, span)?;
+                let Value::Range(range) = range else {
+                    return Err(Exit::Noted);
+                };
+                return Ok(Some(lazy_value(&range, &stages)));
             }
             (name, args) if CONSUMERS.contains(&name) => {
                 return self.consume_lazily(range, &stages, name, args, span).map(Some);
             }
-            _ => return Ok(None),
+            _ if stages.is_empty() => return Ok(None),
+            _ => return Err(self.no_lazy_method(value, name, span)),
         };
         stages.push(stage);
         Ok(Some(lazy_value(range, &stages)))
@@ -93,13 +108,28 @@ impl Evaluator<'_> {
 
     /// Applies an adaptor to a value. Returns the condition that it does not leave the value out, if it may, and what it
     /// makes of it.
-    fn apply_stage(&mut self, stage: &Stage, raw: &Value, item: Value, span: Span) -> Eval<(Option<NodeId>, Value)> {
+    pub fn apply_stage(
+        &mut self,
+        stage: &Stage,
+        raw: &Value,
+        item: Value,
+        span: Span,
+    ) -> Eval<(Option<NodeId>, Value)> {
         let found = match stage {
             Stage::Map(f) => return Ok((None, self.call_item_closure(f, vec![item], span)?)),
             Stage::Enumerate(start) => return Ok((None, self.enumerated(raw, start, item, span)?)),
             Stage::Filter(f) => {
                 let holds = self.call_item_closure(f, vec![item.clone()], span)?;
                 return Ok((Some(self.value_node(&holds, span)?), item));
+            }
+            Stage::At(items) => {
+                let at = self.value_node(raw, span)?;
+                return Ok((None, self.item_at(items, at, span)?));
+            }
+            Stage::Zip(a, b) => {
+                let at = self.value_node(raw, span)?;
+                let pair = vec![self.item_at(a, at, span)?, self.item_at(b, at, span)?];
+                return Ok((None, Value::Tuple(pair)));
             }
             Stage::FilterMap(f) => self.call_item_closure(f, vec![item], span)?,
             Stage::Flatten => item,
@@ -149,7 +179,7 @@ impl Evaluator<'_> {
     }
 
     /// Returns the condition that an `Option` holds a value, and that value.
-    fn held_value(&mut self, found: &Value) -> Eval<(NodeId, Value)> {
+    pub fn held_value(&mut self, found: &Value) -> Eval<(NodeId, Value)> {
         let Value::Enum(choice) = found else {
             return Err(Exit::Noted);
         };

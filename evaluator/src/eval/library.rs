@@ -1,16 +1,27 @@
-//! Standard library functions on places and types: `mem::swap`, `mem::replace`, `T::from`.
+//! Standard library functions on places, orders and types: `mem::swap`, `cmp::max`, `T::from`.
 
 use super::Evaluator;
 use super::call::vector_type;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::IntType;
-use crate::ir::{Op, Scalar, Type};
+use crate::ir::{BinaryOp, Op, Scalar, Type};
 
 impl Evaluator<'_> {
-    /// Evaluates `mem::swap`, `mem::replace` or `mem::take`; `None` for any other function.
+    /// Evaluates `mem::swap`, `mem::replace`, `mem::take`, `cmp::max` or `cmp::min`; `None` for any other function.
     pub fn eval_mem_call(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
         let name = path.last().map(String::as_str).unwrap_or_default();
+        if let ([.., of, _], [a, b]) = (path, values)
+            && of == "cmp"
+            && matches!(name, "max" | "min")
+        {
+            let (a, b) = (self.deref_value(a.clone(), span)?, self.deref_value(b.clone(), span)?);
+            if let Some(found) = self.order_method(&a, name, std::slice::from_ref(&b), span)? {
+                return Ok(Some(found));
+            }
+            let op = if name == "min" { BinaryOp::Min } else { BinaryOp::Max };
+            return self.eval_binary(op, &a, &b, span).map(Some);
+        }
         match (name, values) {
             ("swap", [Value::Ref(a), Value::Ref(b)]) => {
                 let (a, b) = (

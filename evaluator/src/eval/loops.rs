@@ -83,8 +83,8 @@ impl Evaluator<'_> {
             breaks_here: true,
         };
         for stage in &stages {
-            if let Stage::Map(f) | Stage::Filter(f) | Stage::FilterMap(f) = stage {
-                self.collect_ref_slots(f, &mut body.written);
+            for closure in stage.closures() {
+                self.collect_ref_slots(&closure, &mut body.written);
             }
         }
         let mut range = None;

@@ -68,6 +68,9 @@ impl<'a> Evaluator<'a> {
         {
             return Ok(value);
         }
+        if let Some(value) = self.order_method(&value, name, &args, span)? {
+            return Ok(value);
+        }
         match &value {
             Value::Enum(choice)
                 if matches!(name, "unwrap" | "expect") && matches!(choice.ty.as_str(), "Option" | "Result") =>

@@ -43,6 +43,7 @@ mod partial;
 mod paths;
 mod place;
 mod points;
+mod positions;
 mod quad;
 mod ranges;
 mod resources;

@@ -91,9 +91,15 @@ impl Evaluator<'_> {
         let Some(name) = associated else {
             return Some(ty.clone());
         };
-        match self.library.associated.get(&(ty.clone(), name.to_owned())) {
-            Some(crate::front::tree::Type::Name(ty, _)) => Some(ty.clone()),
-            _ => None,
+        let Some(crate::front::tree::Type::Name(found, _)) =
+            self.library.associated.get(&(ty.clone(), name.to_owned()))
+        else {
+            return None;
+        };
+        // A parameter of the type: what it stands for is known from the value.
+        match self.scope.get(&format!("{parameter}::{found}")) {
+            Some(Value::Type(argument)) => Some(argument.clone()),
+            _ => Some(found.clone()),
         }
     }
 

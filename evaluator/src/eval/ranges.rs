@@ -292,7 +292,7 @@ impl Evaluator<'_> {
 
     /// Converts an end of a range to the type in which iterations are counted. A loop of 2^32 iterations would not end, so
     /// the upper bits of a `usize` are dropped.
-    fn counted_end(&mut self, end: NodeId, own: Type) -> NodeId {
+    pub fn counted_end(&mut self, end: NodeId, own: Type) -> NodeId {
         match (self.ty(end), own) {
             (Type::USIZE, Type::U32) => self.builder.add(Op::Bitcast, [end], own),
             _ => self.convert_node(end, own.scalar_kind().unwrap_or(Scalar::U32)),

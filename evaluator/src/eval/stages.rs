@@ -22,6 +22,10 @@ pub enum Stage {
     Enumerate(Value),
     /// Options, of which those that hold a value are taken.
     Flatten,
+    /// The value of an iterator at the loop's position.
+    At(Value),
+    /// The values of two iterators at the loop's position, as a pair.
+    Zip(Value, Value),
 }
 
 impl Stage {
@@ -30,13 +34,34 @@ impl Stage {
         matches!(self, Stage::Filter(_) | Stage::FilterMap(_) | Stage::Flatten)
     }
 
+    /// Returns the closures that the adaptor calls.
+    pub fn closures(&self) -> Vec<Value> {
+        let of = |items: &Value| -> Vec<Value> {
+            let stages = split_stages(items.clone()).1;
+            stages.iter().flat_map(Stage::closures).collect()
+        };
+        match self {
+            Stage::Map(f) | Stage::Filter(f) | Stage::FilterMap(f) => vec![f.clone()],
+            Stage::Enumerate(_) | Stage::Flatten => Vec::new(),
+            Stage::At(items) => of(items),
+            Stage::Zip(a, b) => [of(a), of(b)].concat(),
+        }
+    }
+
     fn to_value(&self) -> Value {
+        if let Stage::Zip(a, b) = self {
+            let both = Value::Tuple(vec![a.clone(), b.clone()]);
+            return Value::Tuple(vec![Value::Str("zip".to_owned()), both]);
+        }
         let (name, of) = match self {
             Stage::Map(f) => ("map", f),
             Stage::Filter(f) => ("filter", f),
             Stage::FilterMap(f) => ("filter_map", f),
             Stage::Enumerate(first) => ("enumerate", first),
-            Stage::Flatten => return Value::Tuple(vec![Value::Str("flatten".to_owned()), Value::unit()]),
+            Stage::At(items) => ("at", items),
+            Stage::Flatten | Stage::Zip(..) => {
+                return Value::Tuple(vec![Value::Str("flatten".to_owned()), Value::unit()]);
+            }
         };
         Value::Tuple(vec![Value::Str(name.to_owned()), of.clone()])
     }
@@ -51,6 +76,12 @@ impl Stage {
             "filter" => Stage::Filter(of.clone()),
             "filter_map" => Stage::FilterMap(of.clone()),
             "enumerate" => Stage::Enumerate(of.clone()),
+            "at" => Stage::At(of.clone()),
+            "zip" => {
+                let Value::Tuple(both) = of else { return None };
+                let [a, b] = both.as_slice() else { return None };
+                Stage::Zip(a.clone(), b.clone())
+            }
             _ => Stage::Flatten,
         })
     }

@@ -95,7 +95,8 @@ impl Evaluator<'_> {
                 widest = self.unify_values(&widest, row, span)?.0;
             }
             for row in &mut rows {
-                *row = self.unify_values(row, &widest, span)?.0;
+                // Functions are numbered in the order of the first list, which is to be the one of all rows.
+                *row = self.unify_values(&widest, row, span)?.1;
             }
         }
         let part =

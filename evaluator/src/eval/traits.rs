@@ -96,15 +96,13 @@ impl<'a> Evaluator<'a> {
         if !own(left) && !own(right) {
             return Ok(None);
         }
+        if matches!(op, BinaryOp::Lt | BinaryOp::Le | BinaryOp::Gt | BinaryOp::Ge) {
+            return self.ordered_by_hand(op, left, right, span);
+        }
         let Some((of, name)) = trait_of(op) else {
             return Ok(None);
         };
-        let library = self.library;
-        let keys: Vec<&str> = self
-            .type_names(left)
-            .iter()
-            .flat_map(|ty| library.operator_keys(ty, of, name))
-            .collect();
+        let keys = self.keys_of_operator(left, of, name);
         let values = vec![left.clone(), right.clone()];
         let Some(key) = self.find_overload(&keys, &values, span)? else {
             return Ok(None);
@@ -114,6 +112,16 @@ impl<'a> Evaluator<'a> {
             BinaryOp::Ne => self.eval_unary(UnaryOp::Not, &value, span).map(Some),
             _ => Ok(Some(value)),
         }
+    }
+
+    /// Returns the functions that a value's type has for a function of an operator's trait.
+    pub fn keys_of_operator(&self, value: &Value, of: &str, name: &str) -> Vec<&'a str> {
+        let library = self.library;
+        let names = self.type_names(value);
+        names
+            .iter()
+            .flat_map(|ty| library.operator_keys(ty, of, name))
+            .collect()
     }
 
     /// Evaluates `place op= value` of a structure or an enum; returns `false` if no such operator exists.
@@ -253,22 +261,64 @@ impl<'a> Evaluator<'a> {
         let mut bound = Vec::new();
         for (k, generic) in function.generics.iter().enumerate() {
             let Generic::Type(name) = generic else { continue };
-            if let Some(ty @ Value::Type(_)) = given.get(k) {
-                bound.push((name.clone(), ty.clone()));
-                continue;
-            }
+            let mut ty = match given.get(k) {
+                Some(Value::Type(ty)) => Some(ty.clone()),
+                _ => None,
+            };
             for (param, value) in function.params.iter().zip(args) {
-                let is_it = matches!(param.ty.peel_refs(), SourceType::Name(of, args) if of == name && args.is_empty());
-                if is_it {
-                    let value = self.deref_value(value.clone(), span)?;
-                    if let Some(ty) = self.type_names(&value).into_iter().next() {
-                        bound.push((name.clone(), Value::Type(ty)));
-                        break;
-                    }
+                let value = self.deref_value(value.clone(), span)?;
+                if param.ty.peel_refs().is_parameter(name) {
+                    bound.extend(self.arguments_of_type(&value, name));
+                }
+                if ty.is_none() {
+                    ty = self.type_in(&param.ty, &value, name);
                 }
             }
+            bound.extend(ty.map(|ty| (name.clone(), Value::Type(ty))));
         }
         Ok(bound)
+    }
+
+    /// Deduces what a type parameter stands for in the stated type of a value.
+    fn type_in(&self, ty: &SourceType, value: &Value, parameter: &str) -> Option<String> {
+        let SourceType::Name(name, args) = ty.peel_refs() else {
+            return None;
+        };
+        if name == parameter && args.is_empty() {
+            return self.type_names(value).into_iter().next();
+        }
+        let definition = self.library.structs.get(name)?;
+        let mut pairs = definition.generics.iter().zip(args);
+        pairs.find_map(|(generic, arg)| match generic {
+            Generic::Type(own) if arg.is_parameter(parameter) => self.type_argument_of(value, own),
+            _ => None,
+        })
+    }
+
+    /// Returns the type arguments of a structure that a type parameter stands for, such as `P::S`, as far as its fields
+    /// have their types.
+    fn arguments_of_type(&self, value: &Value, parameter: &str) -> Vec<(String, Value)> {
+        let Value::Struct { ty, .. } = value else {
+            return Vec::new();
+        };
+        let library = self.library;
+        let generics = library.structs.get(ty.as_str()).map_or(&[][..], |s| &s.generics);
+        let found = generics.iter().filter_map(|generic| {
+            let own = generic.name();
+            let argument = self.type_argument_of(value, own)?;
+            Some((format!("{parameter}::{own}"), Value::Type(argument)))
+        });
+        found.collect()
+    }
+
+    /// Deduces a type argument of a structure from the fields that have its type.
+    fn type_argument_of(&self, value: &Value, parameter: &str) -> Option<String> {
+        let Value::Struct { ty, fields } = value else {
+            return None;
+        };
+        let definition = self.library.structs.get(ty.as_str())?;
+        let mut pairs = definition.fields.iter().zip(fields.iter());
+        pairs.find_map(|((_, ty, _), (_, value))| self.type_in(ty, value, parameter))
     }
 
     /// Evaluates `into()` and `default()` for built-in types.

@@ -47,6 +47,8 @@ pub(super) struct Owner {
     pub ty: Type,
     /// Types that other names stand for in it.
     pub stands: HashMap<String, Type>,
+    /// Type parameters that are called, with their types.
+    pub functions: HashMap<String, Type>,
 }
 
 impl Items {
@@ -409,6 +411,7 @@ impl Items {
 
     fn add_inherent_impl(&mut self, file: u32, item: &mut syn::ItemImpl, mut check: Check) {
         let mut lower = self.lower_of(file);
+        lower.called_parameters(&item.generics);
         let ty = lower.lower_type(&item.self_ty);
         let Type::Name(of, _) = &ty else {
             return self.duplicates.extend(lower.errors);
@@ -419,6 +422,7 @@ impl Items {
             bounds: lower.trait_bounds(&item.generics),
             ty: ty.clone(),
             stands: HashMap::new(),
+            functions: std::mem::take(&mut lower.functions),
         };
         if let Some(default) = &item.modifiers.defaultness {
             check.refuse(default.span(), "`default`", "leave it out");

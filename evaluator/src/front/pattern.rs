@@ -132,10 +132,10 @@ impl Lower {
             syn::Type::Paren(t) => self.lower_type(&t.elem),
             syn::Type::Group(t) => self.lower_type(&t.elem),
             syn::Type::Array(t) => Type::Array(
-                Box::new(self.lower_type(&t.elem)),
+                Box::new(self.lower_element(&t.elem)),
                 Some(Box::new(self.lower_expr(&t.len))),
             ),
-            syn::Type::Slice(t) => Type::Array(Box::new(self.lower_type(&t.elem)), None),
+            syn::Type::Slice(t) => Type::Array(Box::new(self.lower_element(&t.elem)), None),
             syn::Type::Tuple(t) => Type::Tuple(t.elems.iter().map(|e| self.lower_type(e)).collect()),
             syn::Type::Path(t)
                 if t.path
@@ -210,6 +210,19 @@ impl Lower {
 }
 
 impl Lower {
+    /// The type of an array's elements. Objects among them may be of several types, so that no parameter stands for one.
+    fn lower_element(&mut self, ty: &syn::Type) -> Type {
+        match ty {
+            syn::Type::Reference(t) if matches!(&*t.elem, syn::Type::TraitObject(t) if !is_called(&t.bounds)) => {
+                let in_parameters = std::mem::replace(&mut self.in_parameters, false);
+                let element = self.lower_type(ty);
+                self.in_parameters = in_parameters;
+                element
+            }
+            _ => self.lower_type(ty),
+        }
+    }
+
     /// The type that a type's name stands for: `Self::Output`, or a type parameter of a trait that is implemented.
     fn stand_in(&self, ty: &syn::TypePath) -> Option<Type> {
         let names: Vec<String> = ty.path.segments.iter().map(|s| s.ident.to_string()).collect();

@@ -14,7 +14,7 @@ use std::rc::Rc;
 use syn::spanned::Spanned;
 
 /// Traits of Rust whose functions nothing calls by their names: operators, and the end of a scope.
-const OPERATORS: [&str; 30] = [
+const OPERATORS: [&str; 32] = [
     "Add",
     "AddAssign",
     "BitAnd",
@@ -32,7 +32,9 @@ const OPERATORS: [&str; 30] = [
     "MulAssign",
     "Neg",
     "Not",
+    "Ord",
     "PartialEq",
+    "PartialOrd",
     "Product",
     "Rem",
     "RemAssign",
@@ -48,7 +50,7 @@ const OPERATORS: [&str; 30] = [
 ];
 
 /// Traits of Rust that the generator gives a meaning of its own, so that none can be given by hand.
-const OWN: [&str; 6] = ["Drop", "PartialOrd", "Ord", "Deref", "DerefMut", "Iterator"];
+const OWN: [&str; 4] = ["Drop", "Deref", "DerefMut", "Iterator"];
 
 /// Returns whether a trait is one of Rust's that may bound the functions of kernels.
 pub fn is_of_rust(name: &str) -> bool {
@@ -80,6 +82,7 @@ impl Items {
             bounds: HashMap::new(),
             ty: declared,
             stands: HashMap::new(),
+            functions: HashMap::new(),
         };
         let mut of_trait = Trait {
             functions: HashMap::new(),
@@ -151,6 +154,7 @@ impl Items {
         let mut check = Check::new(file);
         let Some((path, _)) = item.trait_.clone() else { return };
         let mut lower = self.lower_of(file);
+        lower.called_parameters(&item.generics);
         let ty = lower.lower_type(&item.self_ty);
         lower.stands_in(&ty);
         let generics = lower.lower_generics(&item.generics);
@@ -176,7 +180,7 @@ impl Items {
             check.refuse(
                 path.span(),
                 &format!("`{trait_name}` written by hand"),
-                "derive it where it can be derived, or write a method of the type and call it by its name",
+                "write a method of the type and call it by its name",
             );
             self.note(&of, TokenStream::new(), check.take_current());
             return self.refuse_functions(item, &of, &[]);
@@ -184,10 +188,11 @@ impl Items {
         let mut stands = HashMap::new();
         for inner in &item.items {
             if let syn::ImplItem::Type(t) = inner {
-                let ty = lower.lower_type(&t.ty);
+                let found = lower.lower_type(&t.ty);
                 let key = (of.clone(), t.ident.to_string());
-                self.library.associated.insert(key, ty.clone());
-                stands.insert(format!("Self::{}", t.ident), ty);
+                let general = self.by_parameter_of(&ty, &found);
+                self.library.associated.insert(key, general);
+                stands.insert(format!("Self::{}", t.ident), found);
             }
         }
         let declared = self.traits.get(&trait_name).cloned();
@@ -205,6 +210,7 @@ impl Items {
             bounds,
             ty: ty.clone(),
             stands,
+            functions: lower.functions.clone(),
         };
         self.library.implements.insert((of.clone(), trait_name.clone()));
         let mut errors = lower.errors;
@@ -345,6 +351,24 @@ impl Items {
         }
     }
 
+    /// A type parameter of an implementation under the name that it has in the definition of the structure.
+    fn by_parameter_of(&self, owner: &Type, ty: &Type) -> Type {
+        let Type::Name(of, args) = owner.peel_refs() else {
+            return ty.clone();
+        };
+        let generics = self
+            .library
+            .structs
+            .get(of)
+            .map_or(&[][..], |definition| &definition.generics);
+        let is_it = |arg: &Type| matches!(ty, Type::Name(name, args) if args.is_empty() && arg.is_parameter(name));
+        let own = generics.iter().zip(args).find(|(_, arg)| is_it(arg));
+        own.map_or_else(
+            || ty.clone(),
+            |(generic, _)| Type::Name(generic.name().to_owned(), Vec::new()),
+        )
+    }
+
     fn refuse_functions(&mut self, item: &syn::ItemImpl, of: &str, errors: &[Diagnostic]) {
         for name in item.items.iter().filter_map(item_name) {
             self.of_trait(format!("{of}::{name}"), errors.to_vec());
@@ -425,6 +449,7 @@ impl Items {
     pub(super) fn lower_within(&self, file: u32, of: &Owner) -> Lower {
         let mut lower = Lower::new(file, Some(of.ty.clone()), Rc::clone(&self.names));
         lower.stands.clone_from(&of.stands);
+        lower.functions.clone_from(&of.functions);
         lower
             .parameters
             .extend(of.generics.iter().map(|generic| generic.name().to_owned()));

@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text, find_type};
 use crate::front::methods;
 use crate::front::testing::RECORD;
-use crate::front::tree::{Expr, ExprKind, Function, IntType};
+use crate::front::tree::{Expr, ExprKind, Function, IntType, Type as SourceType};
 use crate::ir::{Scalar, Type};
 use std::collections::HashMap;
 
@@ -178,7 +178,11 @@ impl<'l> Checker<'l> {
             let is_closure = |arg: &Expr| matches!(arg.kind, ExprKind::Closure(_));
             let (closures, values): (Vec<_>, Vec<_>) = params.iter().zip(args).partition(|(_, arg)| is_closure(arg));
             for (param, arg) in values.into_iter().chain(closures) {
-                let wanted = self.substitute_type(&param.ty, &given, span);
+                let wanted = match object_parameter(&param.ty) {
+                    // Each branch may refer to another type.
+                    Some(object) if chooses(arg) => object,
+                    _ => self.substitute_type(&param.ty, &given, span),
+                };
                 let known = self.errors.len();
                 let found = self.infer_expr(arg, Some(&wanted));
                 let inside = self.errors.len();
@@ -426,6 +430,7 @@ impl<'l> Checker<'l> {
                 let item = self.infer_map_result(&Ty::USIZE, f);
                 Ty::Array(Box::new(item))
             }
+            (["cmp", "max" | "min"], [a, b]) => self.infer_larger(a, b, span),
             (["mem", "swap"] | ["swap"], [a, b]) => {
                 let of = Ty::Ref(true, Box::new(self.table.fresh(Kind::Any)));
                 self.takes_both(a, b, &of, &of);
@@ -617,4 +622,22 @@ fn constructed_type(path: &[&str]) -> Option<Ty> {
         (None, "mat4" | "Mat4", "new" | "from_cols") => Some(Ty::Matrix(4)),
         _ => None,
     }
+}
+
+/// The type `&dyn Trait`, if a parameter has it.
+fn object_parameter(ty: &SourceType) -> Option<Ty> {
+    match ty {
+        SourceType::Ref(mutable, inner) => match &**inner {
+            SourceType::Name(name, _) if name.starts_with("dyn ") => {
+                Some(Ty::Ref(*mutable, Box::new(Ty::Param(name.clone()))))
+            }
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Returns whether an expression is one of several values.
+fn chooses(expr: &Expr) -> bool {
+    matches!(expr.kind, ExprKind::If(..) | ExprKind::Match(..) | ExprKind::Block(..))
 }

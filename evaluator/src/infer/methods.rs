@@ -64,6 +64,9 @@ impl<'l> Checker<'l> {
         if name == "clone" && args.is_empty() && !matches!(bare, Ty::Iter(_) | Ty::Texture(..)) {
             return bare;
         }
+        if let Some(found) = self.infer_order_method(&ty, name, args, span) {
+            return found;
+        }
         let changes = matches!(bare, Ty::Array(_)) && crate::front::CHANGING.contains(&name);
         if name == "iter_mut" || changes {
             self.check_mutable_receiver(access, reference, receiver);

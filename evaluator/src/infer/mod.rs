@@ -13,6 +13,7 @@ mod exhaustive;
 mod expr;
 mod methods;
 mod operators;
+mod order;
 mod pattern;
 mod places;
 mod shapes;

@@ -187,8 +187,8 @@ impl<'l> Checker<'l> {
         self.lacks_trait(left, comparison_trait(op)).is_none()
     }
 
-    /// The first type in a type that does not implement `PartialEq` or `PartialOrd`.
-    fn lacks_trait(&mut self, ty: &Ty, of: &str) -> Option<String> {
+    /// The first type in a type that does not implement `PartialEq`, `PartialOrd` or `Ord`.
+    pub fn lacks_trait(&mut self, ty: &Ty, of: &str) -> Option<String> {
         let library = self.library;
         let bare = self.peel_refs(ty).0;
         let (name, derives) = match &bare {
@@ -196,7 +196,8 @@ impl<'l> Checker<'l> {
             Ty::Enum(name, _) => (name, library.enums.get(name).map(|e| &e.derives)),
             Ty::Tuple(parts) => return parts.iter().find_map(|part| self.lacks_trait(part, of)),
             Ty::Array(element) => return self.lacks_trait(element, of),
-            Ty::Vector(..) | Ty::Matrix(_) | Ty::Quad(_) if of == "PartialOrd" => return Some(bare.to_string()),
+            Ty::Vector(..) | Ty::Matrix(_) | Ty::Quad(_) if of != "PartialEq" => return Some(bare.to_string()),
+            Ty::Float if of == "Ord" => return Some(bare.to_string()),
             _ => return None,
         };
         let known = derives.is_none_or(|derives| derives.iter().any(|derived| derived == of))

@@ -141,7 +141,7 @@ const CASES: &[(&str, &[&str])] = &[
         &["k.i none", "__Lazy::sum.x none"],
     ),
     (
-        "for i in 1..3 { m += i; } s += (0..m).zip(0..9).map(|(x, y)| (x * y) as f32).sum::<f32>();",
+        "for i in 1..3 { m += i; } s += (0..m).chain(0..9).map(|x| x as f32).sum::<f32>();",
         &["k.i full"],
     ),
 ];

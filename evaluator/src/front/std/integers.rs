@@ -135,7 +135,7 @@ impl usize {
     }
 }
 
-#[derive(Clone, Copy, PartialEq, PartialOrd)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Ordering {
     Less,
     Equal,

@@ -21,6 +21,28 @@ impl __Lazy {
         n
     }
 
+    fn position<T>(items: [T], f: impl Fn(T) -> bool) -> Option<usize> {
+        let mut k = 0_usize;
+        for x in items {
+            if f(x) {
+                return Some(k);
+            }
+            k += 1;
+        }
+        None
+    }
+
+    fn nth<T>(items: [T], n: usize) -> Option<T> {
+        let mut k = 0_usize;
+        for x in items {
+            if k == n {
+                return Some(x);
+            }
+            k += 1;
+        }
+        None
+    }
+
     fn sum<T>(items: [T], first: T) -> T {
         let mut sum = first;
         for x in items {

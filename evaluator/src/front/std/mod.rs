@@ -134,6 +134,7 @@ fn pieces() -> &'static [Piece] {
             include_str!("defaults.rs"),
             include_str!("iterators.rs"),
             include_str!("lazy.rs"),
+            include_str!("orders.rs"),
             include_str!("workgroups.rs"),
             include_str!("quat.rs"),
         ]

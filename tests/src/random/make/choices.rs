@@ -1,5 +1,6 @@
 //! Options, enums that hold values, blocks and loops that give values, operators and methods of traits.
 
+use super::orders::Order;
 use super::types::{Choice, Lane, Ty};
 use super::{Maker, Want};
 
@@ -16,7 +17,13 @@ impl Maker {
             };
             variants.push((format!("V{k}"), held, self.random.once_in(3)));
         }
-        self.line("#[derive(Clone, Copy, PartialEq)]");
+        let parts: Vec<Ty> = variants.iter().flat_map(|(_, held, _)| held.clone()).collect();
+        let order = self.chosen_order(&parts);
+        let derived = match order {
+            Order::None => "PartialEq".to_owned(),
+            _ => order.derived().join(", "),
+        };
+        self.line(format!("#[derive(Clone, Copy, {derived})]"));
         self.open(format!("enum {name} {{"));
         for (variant, held, named) in &variants {
             let types: Vec<String> = held.iter().map(|ty| self.ty(ty)).collect();
@@ -31,7 +38,7 @@ impl Maker {
             self.line(text);
         }
         self.close("}");
-        self.choices.push(Choice { name, variants });
+        self.choices.push(Choice { name, variants, order });
     }
 
     /// A variant with what it holds: values, or names of a pattern.

@@ -179,7 +179,6 @@ impl Maker {
 
     /// Functions that take closures, which most kernels have.
     pub(super) fn appliers(&mut self) {
-        self.line("fn same<T>(x: T) -> T { x }");
         self.line("fn ordered<T: Copy>((x, y): (T, T)) -> ((T, T), T) { ((y, x), x) }");
         self.line("fn apply<A, B, F: Fn(A) -> B>(f: F, x: A) -> B { f(x) }");
         self.line("fn apply_dyn<A, B>(f: &dyn Fn(A) -> B, x: A) -> B { f(x) }");

@@ -9,8 +9,9 @@ impl Maker {
         if want.known {
             return self.known_condition();
         }
-        match self.random.below(15) {
+        match self.random.below(17) {
             13 if self.on(Feature::Choices) && d.depth > 0 => self.same(want),
+            15 if self.on(Feature::Orders) && d.depth > 0 => self.ordered(want),
             14 if self.on(Feature::Library) => self.mask_condition(want),
             0..=2 => {
                 let op = self.random.pick(&["<", "<=", ">", ">="]);

@@ -31,6 +31,18 @@ impl Maker {
         if !want.known && self.repeats < 8 && ty.plain() && self.chance(Feature::Closures, 30) {
             return self.iterator(ty, want);
         }
+        if !want.known && self.repeats < 8 && ty.plain() && self.chance(Feature::Adaptors, 30) {
+            return self.adapted(ty, want);
+        }
+        if !want.known && self.inputs && self.repeats < 8 && ty.plain() && self.chance(Feature::Lazy, 30) {
+            return self.lazy(ty, want);
+        }
+        if !want.known
+            && self.random.once_in(6)
+            && let Some(text) = self.largest(ty, want)
+        {
+            return text;
+        }
         if !want.known && ty.plain() && self.repeats < 20 && self.chance(Feature::Choices, 12) {
             return self.out_of_choice(ty, want);
         }

@@ -2,7 +2,6 @@
 
 /// A group of constructs that can be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u32)]
 pub enum Feature {
     /// `&mut` parameters, receivers, locals and loops.
     Mutable,
@@ -62,6 +61,20 @@ pub enum Feature {
     Ordered,
     /// Workgroups.
     Workgroups,
+    /// Orders of structures, tuples, arrays, enums and options; discriminants of enums.
+    Orders,
+    /// `&dyn Trait`.
+    Objects,
+    /// Runtime indices into arrays of structures, tuples, enums, options, matrices and arrays.
+    Aggregates,
+    /// Iterators over ranges with runtime bounds.
+    Lazy,
+    /// Further adaptors of iterators, and methods of slices.
+    Adaptors,
+    /// Closures and functions in structures and arrays.
+    Held,
+    /// Structures generic over constants, and associated types.
+    Spaces,
 }
 
 /// All features.
@@ -95,16 +108,23 @@ pub const ALL: &[Feature] = &[
     Feature::Writes,
     Feature::Ordered,
     Feature::Workgroups,
+    Feature::Orders,
+    Feature::Objects,
+    Feature::Aggregates,
+    Feature::Lazy,
+    Feature::Adaptors,
+    Feature::Held,
+    Feature::Spaces,
 ];
 
 /// A set of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Features(u32);
+pub struct Features(u64);
 
 impl Features {
     /// Everything.
     pub fn all() -> Features {
-        Features(u32::MAX)
+        Features(u64::MAX)
     }
 
     /// Features that all drivers compute in the same bits.
@@ -119,12 +139,12 @@ impl Features {
 
     /// The set without one of its features.
     pub fn without(self, feature: Feature) -> Features {
-        Features(self.0 & !(1 << feature as u32))
+        Features(self.0 & !(1 << feature as u64))
     }
 
     /// Returns whether a feature is in the set.
     pub fn has(self, feature: Feature) -> bool {
-        self.0 & (1 << feature as u32) != 0
+        self.0 & (1 << feature as u64) != 0
     }
 
     /// The feature of a name, as `{:?}` prints it.

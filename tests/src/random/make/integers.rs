@@ -64,6 +64,12 @@ impl Maker {
         let d = want.deeper();
         let own = d.inferred(false);
         let signed = *ty == Ty::I32;
+        if !want.known
+            && self.random.once_in(12)
+            && let Some(text) = self.discriminant(ty, want)
+        {
+            return text;
+        }
         match self.random.below(34) {
             32..=33 if self.on(Feature::Library) => self.integer_of_library(ty, want),
             0..=5 => {

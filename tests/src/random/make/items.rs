@@ -1,12 +1,34 @@
 //! Items: constants, enums, options, and which others there are.
 
+use super::orders::Order;
 use super::types::{Enumeration, Lane, Ty};
 use super::{Feature, Maker, Want};
 
 impl Maker {
     pub(super) fn items(&mut self) {
+        // Kernels without the items of a feature are compiled sooner.
+        for feature in [Feature::Objects, Feature::Held, Feature::Spaces] {
+            if self.random.once_in(2) {
+                self.features = self.features.without(feature);
+            }
+        }
+        if [Feature::Closures, Feature::Lazy, Feature::Adaptors]
+            .iter()
+            .any(|of| self.on(*of))
+        {
+            self.line("fn same<T>(x: T) -> T { x }");
+        }
         if self.on(Feature::Closures) {
             self.appliers();
+        }
+        if self.on(Feature::Objects) {
+            self.object_items();
+        }
+        if self.on(Feature::Held) {
+            self.held_items();
+        }
+        if self.on(Feature::Spaces) {
+            self.space_items();
         }
         for _ in 0..self.random.below(4) {
             self.constant();
@@ -117,8 +139,14 @@ impl Maker {
     fn enumeration(&mut self) {
         let name = self.fresh("E");
         let variants: Vec<String> = (0..self.random.between(2, 4)).map(|k| format!("V{k}")).collect();
-        self.line("#[derive(Clone, Copy, PartialEq, Eq)]");
-        self.line(format!("enum {name} {{ {} }}", variants.join(", ")));
-        self.enumerations.push(Enumeration { name, variants });
+        let order = self.chosen_order(&[]);
+        let derived = match order {
+            Order::None => "Clone, Copy, PartialEq, Eq".to_owned(),
+            _ => format!("Clone, Copy, {}", order.derived().join(", ")),
+        };
+        self.line(format!("#[derive({derived})]"));
+        let stated = self.discriminants(&variants);
+        self.line(format!("enum {name} {{ {} }}", stated.join(", ")));
+        self.enumerations.push(Enumeration { name, variants, order });
     }
 }

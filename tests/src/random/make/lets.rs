@@ -128,6 +128,21 @@ impl Maker {
         self.bind(&name, &ty, true);
     }
 
+    /// A variable of a value.
+    pub(super) fn keep(&mut self, ty: &Ty, value: &str) {
+        let name = self.name();
+        let (mutable, written) = (self.random.once_in(2), self.ty(ty));
+        let sign = if mutable { "mut " } else { "" };
+        self.line(format!("let {sign}{name}: {written} = {value};"));
+        self.bind(&name, ty, mutable);
+    }
+
+    /// An expression without calls that change variables, in place of a whole that may be of any type.
+    pub(super) fn some(&mut self, ty: &Ty, depth: u32) -> String {
+        let want = self.wish(depth).inferred(true);
+        self.without_effects(|m| m.expr(ty, want))
+    }
+
     /// `let` with a pattern.
     pub(super) fn destructure(&mut self) {
         let want = self.wish(2).inferred(true);

@@ -8,6 +8,9 @@ impl Maker {
     pub(super) fn float_of_library(&mut self, want: Want) -> String {
         let d = want.deeper();
         let coarse = self.on(Feature::Coarse);
+        if coarse && self.random.once_in(4) {
+            return self.float_of_angles(d);
+        }
         match self.random.below(8) {
             // A driver may lose the sign of a zero.
             0 if coarse => format!("{}.copysign({})", self.float_receiver(d), self.expr(&Ty::F32, d)),
@@ -86,6 +89,9 @@ impl Maker {
     pub(super) fn float_vector_of_library(&mut self, n: u8, want: Want) -> String {
         let (lane, ty, d) = (Lane::F, Ty::Vec(Lane::F, n), want.deeper());
         let coarse = self.on(Feature::Coarse);
+        if coarse && self.random.once_in(4) {
+            return self.vector_of_angles(n, d);
+        }
         let own = self.vector_receiver(lane, n, d);
         let other = self.expr(&ty, d);
         match self.random.below(14) {

@@ -164,6 +164,35 @@ impl Maker {
         if !self.inputs {
             return self.assign();
         }
+        let (head, names) = self.runtime_head();
+        let leaving = self.on(Feature::RuntimeLeaving);
+        let loops = match leaving {
+            true => self.loops.clone(),
+            false => std::mem::take(&mut self.loops),
+        };
+        self.dynamic += 1;
+        let label = if leaving { self.label() } else { None };
+        self.iterate(&head, label, 4, |m| {
+            if !leaving {
+                // Nothing leaves it early: how often it runs is a runtime value.
+                m.loops.last_mut().expect("inside of a loop").dynamic = u32::MAX;
+            }
+            for (name, ty) in &names {
+                m.bind(name, ty, false);
+                m.last().counter = true;
+            }
+        });
+        self.dynamic -= 1;
+        if !leaving {
+            self.loops = loops;
+        }
+    }
+
+    /// What such a loop runs over: its head, and the names and types that it binds.
+    fn runtime_head(&mut self) -> (String, Vec<(String, Ty)>) {
+        if self.chance(Feature::Lazy, 2) {
+            return self.lazy_head();
+        }
         let (ty, range) = match self.random.below(7) {
             0 => (Ty::I32, "0..p.clamp(0, 4)".to_owned()),
             1 => (Ty::I32, "-1..=(p & 3)".to_owned()),
@@ -174,25 +203,7 @@ impl Maker {
             _ => (Ty::I32, "pixel.x..pixel.x + 3".to_owned()),
         };
         let name = self.fresh("k");
-        let leaving = self.on(Feature::RuntimeLeaving);
-        let loops = match leaving {
-            true => self.loops.clone(),
-            false => std::mem::take(&mut self.loops),
-        };
-        self.dynamic += 1;
-        let label = if leaving { self.label() } else { None };
-        self.iterate(&format!("for {name} in {range}"), label, 4, |m| {
-            if !leaving {
-                // Nothing leaves it early: how often it runs is a runtime value.
-                m.loops.last_mut().expect("inside of a loop").dynamic = u32::MAX;
-            }
-            m.bind(&name, &ty, false);
-            m.last().counter = true;
-        });
-        self.dynamic -= 1;
-        if !leaving {
-            self.loops = loops;
-        }
+        (format!("for {name} in {range}"), vec![(name, ty)])
     }
 
     /// `for` over an array, in all its ways.

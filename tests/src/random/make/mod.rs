@@ -2,6 +2,8 @@
 //! evaluates them; what is tracked is what the generator needs: which values are compile-time constants, which
 //! variables are borrowed, and how much is computed.
 
+mod adaptors;
+mod angles;
 mod branches;
 mod calls;
 mod choices;
@@ -13,18 +15,24 @@ mod floats;
 mod functions;
 mod generics;
 mod groups;
+mod held;
 mod integers;
 mod items;
 mod kernel;
+mod lazy;
 mod lets;
 mod library;
 mod loops;
 mod matches;
+mod objects;
+mod orders;
 mod places;
 mod references;
 mod resources;
 mod shape;
 mod shown;
+mod slices;
+mod spaces;
 mod statements;
 mod structures;
 mod types;

@@ -13,6 +13,8 @@ pub struct Place {
     pub root: String,
     /// Set if the place is the whole of a variable that is a reference.
     pub reference: Hold,
+    /// Indices in the text: the place of each bracket, and the number of elements.
+    pub indices: Vec<(usize, usize)>,
 }
 
 impl Maker {
@@ -28,12 +30,14 @@ impl Maker {
             ty: local.ty.clone(),
             root: local.name.clone(),
             reference: local.hold,
+            indices: Vec::new(),
         });
-        self.inner(&local.name, &local.ty, &local.name, &mut found);
+        self.inner(&local.name, &local.ty, &local.name, &[], &mut found);
         found
     }
 
-    fn inner(&self, text: &str, ty: &Ty, root: &str, found: &mut Vec<Place>) {
+    fn inner(&self, text: &str, ty: &Ty, root: &str, indices: &[(usize, usize)], found: &mut Vec<Place>) {
+        let mut indices = indices.to_vec();
         let mut parts: Vec<(String, Ty)> = Vec::new();
         match ty {
             Ty::Struct(k) => {
@@ -47,7 +51,10 @@ impl Maker {
                         .map(|(k, ty)| (format!("{text}.{k}"), ty.clone())),
                 );
             }
-            Ty::Array(of, len) => parts.extend((0..*len).map(|k| (format!("{text}[{k}]"), (**of).clone()))),
+            Ty::Array(of, len) => {
+                parts.extend((0..*len).map(|k| (format!("{text}[{k}]"), (**of).clone())));
+                indices.push((text.len(), *len));
+            }
             Ty::Vec(_, n) => {
                 let lane = ty.lane().expect("a vector has lanes");
                 parts.extend((0..*n as usize).map(|k| (format!("{text}.{}", &"xyzw"[k..=k]), lane.clone())));
@@ -60,8 +67,9 @@ impl Maker {
                 ty: ty.clone(),
                 root: root.to_owned(),
                 reference: Hold::Value,
+                indices: indices.clone(),
             });
-            self.inner(&text, &ty, root, found);
+            self.inner(&text, &ty, root, &indices, found);
         }
     }
 
@@ -78,7 +86,14 @@ impl Maker {
         if found.is_empty() {
             return None;
         }
-        let place = self.random.pick(&found);
+        let mut place = self.random.pick(&found);
+        if !known && self.inputs && self.chance(Feature::Aggregates, 3) {
+            self.index_at_run_time(&mut place, |m, len| match m.random.below(3) {
+                0 => format!("p.rem_euclid({len}) as usize"),
+                1 => format!("(q % {len}) as usize"),
+                _ => format!("(pixel.x.clamp(0, {})) as usize", len - 1),
+            });
+        }
         Some(if place.text.starts_with('*') {
             format!("({})", place.text)
         } else {
@@ -105,7 +120,8 @@ impl Maker {
         let array = self.random.pick(&arrays);
         let Ty::Array(of, len) = &array.ty else { return None };
         let (slice, len) = self.slice(*len, 5);
-        let index = self.index(len, want.known || !of.plain(), want.depth.min(2));
+        let known = want.known || !of.plain() && !self.on(Feature::Aggregates);
+        let index = self.index(len, known, want.depth.min(2));
         let text = if array.text.starts_with('*') {
             format!("({})", array.text)
         } else {
@@ -159,6 +175,19 @@ impl Maker {
         }
     }
 
+    /// Replaces the last index of a place, and at times those before it.
+    fn index_at_run_time(&mut self, place: &mut Place, index: impl Fn(&mut Maker, usize) -> String) {
+        for (n, (at, len)) in place.indices.clone().into_iter().rev().enumerate() {
+            if n > 0 && (!self.on(Feature::Aggregates) || self.random.once_in(2)) {
+                continue;
+            }
+            let Some(end) = place.text[at..].find(']') else { return };
+            let (slice, len) = self.slice(len, 4);
+            let index = index(self, len);
+            place.text.replace_range(at..=at + end, &format!("{slice}[{index}]"));
+        }
+    }
+
     /// Places that may be written, of one type if one is given.
     pub(super) fn writable(&mut self, ty: Option<&Ty>) -> Option<Place> {
         let mut found = Vec::new();
@@ -177,23 +206,14 @@ impl Maker {
             return None;
         }
         let mut place = self.random.pick(&found);
-        // Sometimes the index is computed.
-        if let Some(at) = place.text.rfind('[')
-            && place.text.ends_with(']')
-            && place.ty.plain()
-            && self.random.once_in(2)
-        {
-            let len = found
-                .iter()
-                .filter(|p| p.text.len() == place.text.len() && p.text[..at] == place.text[..at])
-                .count();
-            if len > 0 {
-                self.freeze(&place.root.clone(), true);
-                let (slice, len) = self.slice(len, 4);
-                let index = self.index(len, false, 1);
-                self.freeze(&place.root.clone(), false);
-                place.text = format!("{}{slice}[{index}]", &place.text[..at]);
-            }
+        // Sometimes an index is computed.
+        let last = place.indices.last().map_or(0, |(at, _)| *at);
+        let plain = place.ty.plain() && place.text.rfind('[') == Some(last) && place.text.ends_with(']');
+        if self.random.once_in(2) && (plain || self.on(Feature::Aggregates)) {
+            let root = place.root.clone();
+            self.freeze(&root, true);
+            self.index_at_run_time(&mut place, |m, len| m.index(len, false, 1));
+            self.freeze(&root, false);
         }
         Some(place)
     }

@@ -1,6 +1,7 @@
 //! Parameters and results of kernels. Most kernels have a frame, a buffer, three numbers and their pixel, and return a
 //! colour; a share of them has further shapes.
 
+use super::orders::Order;
 use super::types::{Structure, Ty};
 use super::{Feature, Lane, Maker};
 
@@ -194,6 +195,7 @@ impl Maker {
             tuple: false,
             copy: true,
             operators: false,
+            order: Order::None,
         });
         Ty::Struct(self.structures.len() - 1)
     }

@@ -27,7 +27,11 @@ impl Maker {
         if self.inputs && self.shape.is_wide() && self.random.once_in(10) {
             return self.read_further();
         }
-        match self.random.below(44) {
+        match self.random.below(52) {
+            44..=45 if self.on(Feature::Objects) => self.object_statement(),
+            46..=47 if self.on(Feature::Held) => self.held_statement(),
+            48..=49 if self.on(Feature::Adaptors) => self.slice_statement(),
+            50 if self.on(Feature::Spaces) => self.space_statement(),
             43 if self.on(Feature::Closures) => self.swap_by_assignment(),
             40..=41 if self.on(Feature::Closures) => self.closure_statement(),
             42 if self.on(Feature::Closures) && self.on(Feature::Mutable) => self.writing_closure(),

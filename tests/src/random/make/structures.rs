@@ -1,5 +1,6 @@
 //! Structures with constants, constructors and methods.
 
+use super::orders::Order;
 use super::types::{Param, Signature, Structure, Ty};
 use super::{Feature, Hold, Maker, Want};
 
@@ -15,8 +16,12 @@ impl Maker {
                 (if tuple { k.to_string() } else { format!("f{k}") }, ty)
             })
             .collect();
-        if copy {
-            self.line("#[derive(Clone, Copy)]");
+        let parts: Vec<Ty> = fields.iter().map(|(_, ty)| ty.clone()).collect();
+        let order = self.chosen_order(&parts);
+        let mut derived = if copy { vec!["Clone", "Copy"] } else { Vec::new() };
+        derived.extend(order.derived());
+        if !derived.is_empty() {
+            self.line(format!("#[derive({})]", derived.join(", ")));
         }
         if tuple {
             let fields: Vec<String> = fields.iter().map(|(_, ty)| self.ty(ty)).collect();
@@ -35,7 +40,11 @@ impl Maker {
             tuple,
             copy,
             operators: false,
+            order,
         });
+        if order == Order::None && copy && self.chance(Feature::Orders, 3) {
+            self.order_by_hand();
+        }
     }
 
     pub(super) fn methods(&mut self, k: usize) {

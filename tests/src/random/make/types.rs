@@ -1,5 +1,6 @@
 //! Types of random kernels and what functions take.
 
+use super::orders::Order;
 use super::{Feature, Hold, Maker};
 
 /// Numbers in a vector.
@@ -40,6 +41,7 @@ pub struct Structure {
     pub copy: bool,
     /// `true` if it has operators.
     pub operators: bool,
+    pub order: Order,
 }
 
 /// An enum that holds values.
@@ -48,6 +50,7 @@ pub struct Choice {
     pub name: String,
     /// Name of each variant, what it holds, and whether its fields have names.
     pub variants: Vec<(String, Vec<Ty>, bool)>,
+    pub order: Order,
 }
 
 /// An enum.
@@ -55,6 +58,7 @@ pub struct Choice {
 pub struct Enumeration {
     pub name: String,
     pub variants: Vec<String>,
+    pub order: Order,
 }
 
 /// A parameter.
