@@ -48,7 +48,7 @@ pub fn decide(
     for (index, picture) in chain.pictures.iter().enumerate() {
         let wanted = match fuse {
             Fuse::None => false,
-            Fuse::Auto | Fuse::All => true,
+            Fuse::Auto | Fuse::All => !chain.results.contains(&index),
             Fuse::Named(names) => names.contains(&picture.name),
         };
         if !wanted {

@@ -71,7 +71,7 @@ fn bits(of: &Texture<Vec4>) -> Vec<[u32; 4]> {
 
 type Native = fn(&Texture<Vec4>, &Sampler, f32) -> Texture<Vec4>;
 
-const ALL: [(&str, Native); 9] = [
+const ALL: [(&str, Native); 10] = [
     ("separable", constructs::separable),
     ("pyramid", constructs::pyramid),
     ("values", constructs::values),
@@ -80,6 +80,7 @@ const ALL: [(&str, Native); 9] = [
     ("ping_pong", constructs::ping_pong),
     ("kinds", constructs::kinds),
     ("sizes", constructs::sizes),
+    ("named", constructs::named),
     ("frames", constructs::frames),
 ];
 

@@ -103,7 +103,10 @@ impl Walk<'_> {
         let known = self.entries.get(&text).cloned();
         let entry = known.unwrap_or_else(|| {
             let taken = |name: &str| self.kernels.iter().any(|kernel| kernel.sig.ident == name);
-            let entry = unused_name(&entry, taken);
+            let entry = match self.has_function(&entry) {
+                true => unused_name(&format!("{entry}_pass"), taken),
+                false => unused_name(&entry, taken),
+            };
             made.kernel.sig.ident = Ident::new(&entry, call.func.span());
             self.kernels.push(made.kernel.clone());
             self.entries.insert(text, entry.clone());

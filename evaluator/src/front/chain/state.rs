@@ -1,6 +1,7 @@
 //! State of the walk through a chain.
 
 use super::capture::{Captured, Lookup, capture};
+use super::signature::returns_pictures;
 use super::value::Value;
 use super::{Chain, MOST_STEPS, refused};
 use crate::diagnostic::{Code, Diagnostic};
@@ -86,6 +87,15 @@ impl Walk<'_> {
         items.into_iter().find_map(|item| match item {
             syn::Item::Const(constant) if constant.ident == name => Some(&*constant.expr),
             _ => None,
+        })
+    }
+
+    /// Returns whether the files have a function of a name that is no chain.
+    pub(super) fn has_function(&self, name: &str) -> bool {
+        let items = self.syntax.iter().flat_map(|(_, file)| &file.items);
+        items.into_iter().any(|item| match item {
+            syn::Item::Fn(function) => function.sig.ident == name && !returns_pictures(&function.sig),
+            _ => false,
         })
     }
 
