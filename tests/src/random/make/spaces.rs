@@ -57,7 +57,7 @@ impl Maker {
             5 => format!("wide(Wide {{ v: {x} }}) + into_f32(Wide {{ v: 3_u8 }}.v)"),
             6 => format!("along(&Line {{ by: {x} }}, 0.75)"),
             7 => format!("along(&Bent {{ by: {x}, _of: Near }}, 0.5)"),
-            _ => format!("along(&Bent {{ by: {x}, _of: Far }}, 0.25) - <Bent<Far> as Path>::Space::W"),
+            _ => format!("along(&Bent {{ by: {x}, _of: Far }}, 0.25)"),
         };
         self.keep(&Ty::F32, &value);
     }
