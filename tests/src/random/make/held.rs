@@ -9,10 +9,14 @@ impl Maker {
         self.line("fn halved(x: f32) -> f32 { x * 0.5 }");
         self.line("fn turned(x: f32) -> f32 { 1.0 - x }");
         self.line("struct Holds<F: Fn(f32) -> f32> { f: F, by: f32 }");
-        self.line("impl<F: Fn(f32) -> f32> Holds<F> { fn of(&self, x: f32) -> f32 { (self.f)(x) + self.by } }");
+        self.line("impl<F: Fn(f32) -> f32> Holds<F> {");
+        self.line("    fn applied(&self, x: f32) -> f32 { (self.f)(x) + self.by }");
+        self.line("}");
         self.line("#[derive(Clone, Copy)]");
         self.line("struct Curve { f: fn(f32) -> f32, by: f32 }");
-        self.line("impl Curve { fn of(&self, x: f32) -> f32 { (self.f)(x) * self.by } }");
+        self.line("impl Curve {");
+        self.line("    fn of(&self, x: f32) -> f32 { (self.f)(x) * self.by }");
+        self.line("}");
         self.line("struct Lent<'a> { f: &'a dyn Fn(f32) -> f32, by: f32 }");
     }
 
@@ -38,7 +42,7 @@ impl Maker {
                 self.line(format!(
                     "let {name} = Holds {{ f: |{x}: f32| -> f32 {{ {body} }}, by: {by} }};"
                 ));
-                format!("{name}.of({argument})")
+                format!("{name}.applied({argument})")
             }
             2 => {
                 self.line(format!(
