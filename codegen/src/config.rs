@@ -124,7 +124,7 @@ fn build_chain(config: &KernelConfig, chain: Chain) -> Result<Built, Errors> {
     let chain = config
         .sources
         .iter()
-        .fold(Ok(chain), |chain, path| chain?.with_file(path))?;
+        .try_fold(chain, |chain, path| chain.with_file(path))?;
     let mut spec = ChainSpec::from(config.spec.clone().target(Target::Wgsl)).fuse(config.fuse.clone());
     spec.pictures = config.pictures;
     let compiled = chain.compile(&spec)?;

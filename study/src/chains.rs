@@ -51,7 +51,7 @@ pub enum ChainsError {
         /// The chain's name.
         name: String,
         /// Cause of the failure.
-        source: ExecuteError,
+        source: Box<ExecuteError>,
     },
 }
 
@@ -96,7 +96,7 @@ fn study_chain(
     let name = subject.chain.name().to_owned();
     let failed = |source: ExecuteError| ChainsError::Execute {
         name: name.clone(),
-        source,
+        source: Box::new(source),
     };
     let compile = |fuse: Fuse, exact: bool| {
         let mut spec = ChainSpec::from(subject.shader.clone()).fuse(fuse);

@@ -26,7 +26,7 @@ impl KernelArgs {
         let Some(chain) = Chain::from_argument(&self.kernel)? else {
             return Ok(None);
         };
-        let chain = self.source.iter().fold(Ok(chain), |chain, path| chain?.with_file(path));
+        let chain = self.source.iter().try_fold(chain, |chain, path| chain.with_file(path));
         chain.map(Some)
     }
 

@@ -32,7 +32,7 @@ pub(super) fn compile_passes(
     let starts = compiler.evaluate_all()?;
     let sized = compiler.input_textures(&starts);
     let decision =
-        fusion::decide(&chain, &starts, &sized, &spec.fuse).map_err(|error| Errors::new(vec![error], files))?;
+        fusion::decide(&chain, &starts, &sized, &spec.fuse).map_err(|error| Errors::new(vec![*error], files))?;
     let planned = compiler.plan_passes(&starts, &decision, &sized)?;
     let kernels = compiler.compile_all(&planned)?;
     let stored = |index: usize| decision.fused[..index].iter().filter(|fused| !**fused).count();

@@ -37,7 +37,7 @@ pub fn decide(
     starts: &BTreeMap<String, Start>,
     sized: &[Texture],
     fuse: &Fuse,
-) -> Result<Decision, Diagnostic> {
+) -> Result<Decision, Box<Diagnostic>> {
     let mut decision = Decision {
         fused: vec![false; chain.pictures.len()],
         kept: Vec::new(),
@@ -68,24 +68,28 @@ pub fn decide(
         };
         if let Fuse::Named(_) = fuse {
             let what = format!("the picture `{}` cannot be fused: {reason}", picture.name);
-            return Err(Diagnostic::error_at(Code::UnfitSetting, picture.span, what)
-                .label("drawn here")
-                .help("leave it out of `--fuse`, or use `--fuse auto`"));
+            return Err(Box::new(
+                Diagnostic::error_at(Code::UnfitSetting, picture.span, what)
+                    .label("drawn here")
+                    .help("leave it out of `--fuse`, or use `--fuse auto`"),
+            ));
         }
         decision.kept.push(Kept { picture: index, reason });
     }
     Ok(decision)
 }
 
-fn check_names<'n>(chain: &Chain, names: impl Iterator<Item = &'n str>) -> Result<(), Diagnostic> {
+fn check_names<'n>(chain: &Chain, names: impl Iterator<Item = &'n str>) -> Result<(), Box<Diagnostic>> {
     let known: Vec<&str> = chain.pictures.iter().map(|picture| picture.name.as_str()).collect();
     for name in names {
         if !known.contains(&name) {
             let what = format!("`{}` has no picture `{name}`", chain.name);
             let help = suggest_name(name, &known, "its pictures are");
-            return Err(Diagnostic::error_at(Code::SettingValue, chain.span, what)
-                .label("this chain")
-                .help(help));
+            return Err(Box::new(
+                Diagnostic::error_at(Code::SettingValue, chain.span, what)
+                    .label("this chain")
+                    .help(help),
+            ));
         }
     }
     Ok(())

@@ -134,7 +134,7 @@ fn pictures_that_are_read_at_single_places_are_fused() {
 fn bloom_computes_the_bits_of_rust_with_every_option() {
     for levels in 1..=4 {
         let mut spec = exact();
-        spec.shader = spec.shader.set("levels", &levels.to_string()).set("spread", "0.6");
+        spec.shader = spec.shader.set("levels", levels.to_string()).set("spread", "0.6");
         let chain = Chain::from_text("bloom.rs", include_str!("../../../examples/chains/bloom.rs"), "bloom");
         let compiled = chain
             .compile(&spec)

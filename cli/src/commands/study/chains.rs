@@ -34,7 +34,7 @@ pub fn measure_chains(common: &CommonArgs, args: &ChainsArgs, progress: &mut Pro
         let chain = args
             .source
             .iter()
-            .fold(Ok(chain), |chain, path| chain?.with_file(path))?;
+            .try_fold(chain, |chain, path| chain.with_file(path))?;
         Ok(ChainSubject {
             chain,
             shader: ShaderSpec::new(),

@@ -70,14 +70,17 @@ pub fn quote_chain(chain: &ChainModule<'_>) -> Result<TokenStream, Errors> {
     let names = emitted.shaders.keys();
     let entries = names.map(|shader| {
         let ident = rust_identifier(shader);
-        quote! { (#shader, &#ident::SHADER) }
+        quote! { (#shader, &shaders::#ident::SHADER) }
     });
     let (plan, json) = (quote_plan(&emitted.plan), format!("{}.chain.json", emitted.plan.chain));
     Ok(quote! {
         #(#[doc = #docs])*
         #[allow(non_snake_case)]
         pub mod #name {
-            #(#modules)*
+            /// Shaders of the passes, each with its text, manifest and layout.
+            pub mod shaders {
+                #(#modules)*
+            }
 
             /// Passes and pictures of the chain as JSON, for other programs.
             #[allow(dead_code)]

@@ -12,7 +12,7 @@ use syn::spanned::Spanned;
 
 impl Walk<'_> {
     pub(super) fn branch(&mut self, branch: &syn::ExprIf, place: Place<'_>) -> Known {
-        let Some(holds) = self.known(&branch.cond)?.and_then(Value::as_flag) else {
+        let Some(holds) = self.known(&branch.cond)?.and_then(Value::into_flag) else {
             if find_word(branch.to_token_stream(), "draw").is_none() {
                 return Ok(None);
             }
@@ -99,7 +99,7 @@ impl Walk<'_> {
     pub(super) fn while_loop(&mut self, looping: &syn::ExprWhile) -> Result<(), Box<Diagnostic>> {
         loop {
             self.step(&looping.while_token)?;
-            match self.known(&looping.cond)?.and_then(Value::as_flag) {
+            match self.known(&looping.cond)?.and_then(Value::into_flag) {
                 Some(false) => return Ok(()),
                 Some(true) => {
                     let errors = self.errors.len();

@@ -11,6 +11,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::front::{token_span, unraw};
 use proc_macro2::Ident;
 use quote::ToTokens;
+use std::rc::Rc;
 use straightline_manifest::Format;
 use straightline_manifest::chain::SizeRule;
 use syn::spanned::Spanned;
@@ -62,7 +63,7 @@ impl Walk<'_> {
         self.add_pass(call, (closure, pixel), captured, &ty, &size, place)?;
         Ok(Value::Image(Image {
             source: Source::Picture(index),
-            ty,
+            ty: Rc::new(ty),
         }))
     }
 

@@ -2,6 +2,7 @@
 
 use super::Source;
 use super::signature::PictureType;
+use std::rc::Rc;
 use straightline_manifest::chain::SizeRule;
 
 /// Value of a variable of a chain, or of an expression.
@@ -41,7 +42,7 @@ pub struct Image {
     /// The input or picture.
     pub source: Source,
     /// Its type, as a variable of the chain has it.
-    pub ty: PictureType,
+    pub ty: Rc<PictureType>,
 }
 
 impl Value {
@@ -64,7 +65,7 @@ impl Value {
     }
 
     /// The boolean that this is.
-    pub fn as_flag(self) -> Option<bool> {
+    pub fn into_flag(self) -> Option<bool> {
         match self {
             Value::Flag(flag) => Some(flag),
             _ => None,

@@ -8,6 +8,7 @@ use super::syntax::{call_name, is_new_list, variable_of};
 use super::value::{Image, Value};
 use quote::{ToTokens, quote_spanned};
 use std::collections::HashMap;
+use std::rc::Rc;
 
 /// Deepest nesting of chains that call chains.
 const DEEPEST: usize = 16;
@@ -100,7 +101,7 @@ impl<'s> Walk<'s> {
             };
             let value = match self.value(argument, Place::default())? {
                 Some(Value::Image(image)) => Value::Image(Image {
-                    ty: picture_type(ty).unwrap_or(image.ty),
+                    ty: picture_type(ty).map_or(image.ty, Rc::new),
                     ..image
                 }),
                 Some(Value::Later(_)) | None => {

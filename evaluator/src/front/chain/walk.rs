@@ -8,6 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::front::items::doc_text;
 use crate::front::{token_span, unraw};
 use std::collections::HashMap;
+use std::rc::Rc;
 use straightline_kernels::OptionValues;
 
 /// A chain with the kernels of its passes.
@@ -91,14 +92,14 @@ impl Walk<'_> {
                 ParamKind::Image => {
                     self.chain.inputs.push(text.clone());
                     let source = Source::Input(text.clone());
-                    if let Some(picture) = picture_type(ty).filter(|picture| picture.is_frame) {
-                        self.frames.push(text.clone());
-                        Value::Image(Image { source, ty: picture })
-                    } else {
-                        match picture_type(ty) {
-                            Some(ty) => Value::Image(Image { source, ty }),
-                            None => Value::Param(text.clone()),
+                    match picture_type(ty).map(Rc::new) {
+                        Some(ty) => {
+                            if ty.is_frame {
+                                self.frames.push(text.clone());
+                            }
+                            Value::Image(Image { source, ty })
                         }
+                        None => Value::Param(text.clone()),
                     }
                 }
                 ParamKind::Resource => {

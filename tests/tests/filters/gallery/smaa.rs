@@ -26,7 +26,7 @@ pub fn antialias(bench: &Bench, color: &Frame<Vec4>, unroll: Unroll, branches: B
     let files = passes.map(|name| examples().join(format!("gallery/{name}.rs")));
     let chain = files
         .iter()
-        .fold(Ok(chain.expect("a chain")), |chain, file| chain?.with_file(file));
+        .try_fold(chain.expect("a chain"), |chain, file| chain.with_file(file));
     let mut spec = ShaderSpec::new().unroll(unroll).branches(branches);
     spec.emit = spec.emit.stage(Stage::Fragment).format(Format::Rgba32Float);
     let compiled = chain.and_then(|chain| chain.compile(&ChainSpec::from(spec)));
