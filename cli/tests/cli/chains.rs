@@ -140,3 +140,21 @@ fn an_engine_takes_a_fused_chain() {
     ]);
     assert!(!is_empty(&folder));
 }
+
+/// Passes have names of their own where functions of the files have theirs.
+#[test]
+fn the_passes_of_smaa_are_emitted() {
+    let folder = scratch("chain-smaa");
+    let out = folder.to_str().expect("a path of text");
+    let chain = here("examples/chains/smaa.rs");
+    let files = ["edges", "weights", "blend"].map(|name| here(&format!("examples/gallery/smaa_{name}.rs")));
+    let mut words = vec!["emit", &chain, "--out", out];
+    files.iter().for_each(|file| words.extend(["--source", file.as_str()]));
+    finishes(&words);
+    let text = std::fs::read_to_string(folder.join("smaa.chain.json")).expect("a plan");
+    let plan = ChainPlan::from_json(&text).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(plan.shaders(), ["smaa_edges_pass", "smaa_weights_pass", "smaa"]);
+    assert_eq!(plan.inputs, ["color", "area", "search", "linear"]);
+    let formats: Vec<&str> = plan.pictures.iter().map(|picture| picture.format.wgsl_name()).collect();
+    assert_eq!(formats, ["rgba8unorm", "rgba8unorm", "rgba16float"]);
+}

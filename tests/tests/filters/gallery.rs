@@ -425,8 +425,9 @@ fn smaa() {
     let mut reference =
         baselines::Smaa::new(&bench, size, baselines::Transfer::Linear).unwrap_or_else(|e| panic!("{e}"));
     let reference = reference.run(&color).unwrap_or_else(|e| panic!("{e}"));
+    let mut chain = smaa::Chain::new(&bench, &color);
     for (unroll, branches) in [(Unroll::None, Branches::AsLoops), (Unroll::Full, Branches::AsLoops)] {
-        let shown = smaa::antialias(&bench, &color, unroll, branches);
+        let shown = chain.run(unroll, branches);
         let far = |(a, b): (&Vec4, &Vec4)| (*a - *b).truncate().abs().max_element() * 255.0;
         let errors = shown.texels().iter().zip(reference.texels()).map(far);
         let changed = shown
