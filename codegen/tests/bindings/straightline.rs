@@ -2504,260 +2504,265 @@ pub mod sraa {
 /// A chain of 2 passes: make it by `straightline_runtime::Chain::new(&device, &CHAIN, ..)`.
 #[allow(non_snake_case)]
 pub mod glow {
-    /// Shader `glow`.
-    #[allow(dead_code)]
-    pub mod glow {
-        use straightline_runtime::wgpu;
-        /// The shader.
-        pub const WGSL: &str = include_str!("glow.wgsl");
-        /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
-        pub const MANIFEST: &str = include_str!("glow.json");
-        /// Name of the entry point.
-        pub const ENTRY_POINT: &str = "glow";
-        /// Invocations in a workgroup.
-        pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
-        /// Layout of bind group 0, for a custom pipeline.
-        pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
-            label: Some("glow"),
-            entries: &[
-                wgpu::BindGroupLayoutEntry {
-                    binding: 0,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::Texture {
-                        sample_type: wgpu::TextureSampleType::Float {
-                            filterable: false,
+    /// Shaders of the passes, each with its text, manifest and layout.
+    pub mod shaders {
+        /// Shader `glow`.
+        #[allow(dead_code)]
+        pub mod glow {
+            use straightline_runtime::wgpu;
+            /// The shader.
+            pub const WGSL: &str = include_str!("glow.wgsl");
+            /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+            pub const MANIFEST: &str = include_str!("glow.json");
+            /// Name of the entry point.
+            pub const ENTRY_POINT: &str = "glow";
+            /// Invocations in a workgroup.
+            pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
+            /// Layout of bind group 0, for a custom pipeline.
+            pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
+                label: Some("glow"),
+                entries: &[
+                    wgpu::BindGroupLayoutEntry {
+                        binding: 0,
+                        visibility: wgpu::ShaderStages::COMPUTE,
+                        ty: wgpu::BindingType::Texture {
+                            sample_type: wgpu::TextureSampleType::Float {
+                                filterable: false,
+                            },
+                            view_dimension: wgpu::TextureViewDimension::D2,
+                            multisampled: false,
                         },
-                        view_dimension: wgpu::TextureViewDimension::D2,
-                        multisampled: false,
+                        count: None,
                     },
-                    count: None,
-                },
-                wgpu::BindGroupLayoutEntry {
-                    binding: 1,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::Texture {
-                        sample_type: wgpu::TextureSampleType::Float {
-                            filterable: true,
+                    wgpu::BindGroupLayoutEntry {
+                        binding: 1,
+                        visibility: wgpu::ShaderStages::COMPUTE,
+                        ty: wgpu::BindingType::Texture {
+                            sample_type: wgpu::TextureSampleType::Float {
+                                filterable: true,
+                            },
+                            view_dimension: wgpu::TextureViewDimension::D2,
+                            multisampled: false,
                         },
-                        view_dimension: wgpu::TextureViewDimension::D2,
-                        multisampled: false,
+                        count: None,
                     },
-                    count: None,
-                },
-                wgpu::BindGroupLayoutEntry {
-                    binding: 2,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-                    count: None,
-                },
-                wgpu::BindGroupLayoutEntry {
-                    binding: 4,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::Buffer {
-                        ty: wgpu::BufferBindingType::Uniform,
-                        has_dynamic_offset: false,
-                        min_binding_size: wgpu::BufferSize::new(16),
+                    wgpu::BindGroupLayoutEntry {
+                        binding: 2,
+                        visibility: wgpu::ShaderStages::COMPUTE,
+                        ty: wgpu::BindingType::Sampler(
+                            wgpu::SamplerBindingType::Filtering,
+                        ),
+                        count: None,
                     },
-                    count: None,
-                },
-                wgpu::BindGroupLayoutEntry {
-                    binding: 3,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::StorageTexture {
-                        access: wgpu::StorageTextureAccess::WriteOnly,
-                        format: wgpu::TextureFormat::Rgba32Float,
-                        view_dimension: wgpu::TextureViewDimension::D2,
+                    wgpu::BindGroupLayoutEntry {
+                        binding: 4,
+                        visibility: wgpu::ShaderStages::COMPUTE,
+                        ty: wgpu::BindingType::Buffer {
+                            ty: wgpu::BufferBindingType::Uniform,
+                            has_dynamic_offset: false,
+                            min_binding_size: wgpu::BufferSize::new(16),
+                        },
+                        count: None,
                     },
-                    count: None,
-                },
-            ],
-        };
-        /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
-        pub static SHADER: straightline_runtime::Shader<'static> = {
-            use straightline_runtime::Shader;
-            use straightline_runtime::plan::{
-                Borrowed, Dimension, Extent, FieldPlan, Format, InputKind, InputPlan,
-                OutputPlan, Plan, SampleType, SamplerType, Scalar, StagePlan,
-                TexturePlan, UniformPlan, ValueType,
+                    wgpu::BindGroupLayoutEntry {
+                        binding: 3,
+                        visibility: wgpu::ShaderStages::COMPUTE,
+                        ty: wgpu::BindingType::StorageTexture {
+                            access: wgpu::StorageTextureAccess::WriteOnly,
+                            format: wgpu::TextureFormat::Rgba32Float,
+                            view_dimension: wgpu::TextureViewDimension::D2,
+                        },
+                        count: None,
+                    },
+                ],
             };
-            Shader::generated(
-                WGSL,
-                0x44e0_8b0f_f203_c1c7,
-                straightline_runtime::loops_end!(),
-                Plan {
-                    kernel: Borrowed("glow"),
-                    entry_point: Borrowed("glow"),
-                    stage: StagePlan::Compute {
-                        workgroup: WORKGROUP_SIZE,
-                        fills_memory: false,
-                    },
-                    block: [1, 1],
-                    features: Borrowed(&[]),
-                    inputs: Borrowed(
-                        &[
-                            InputPlan {
-                                name: Borrowed("color"),
-                                group: 0,
-                                binding: 0,
-                                kind: InputKind::Texture(TexturePlan {
-                                    dimension: Dimension::D2,
-                                    sample_type: SampleType::Unfilterable,
-                                    components: 4,
-                                    layers: 1,
-                                    samples: 1,
-                                    extent: Extent::Output,
-                                }),
-                            },
-                            InputPlan {
-                                name: Borrowed("small"),
-                                group: 0,
-                                binding: 1,
-                                kind: InputKind::Texture(TexturePlan {
-                                    dimension: Dimension::D2,
-                                    sample_type: SampleType::Filterable,
-                                    components: 4,
-                                    layers: 1,
-                                    samples: 1,
-                                    extent: Extent::Any,
-                                }),
-                            },
-                            InputPlan {
-                                name: Borrowed("linear"),
-                                group: 0,
-                                binding: 2,
-                                kind: InputKind::Sampler(SamplerType::Filtering),
-                            },
-                        ],
-                    ),
-                    uniforms: Borrowed(
-                        &[
-                            UniformPlan {
-                                name: Borrowed("parameters"),
-                                group: 0,
-                                binding: 4,
-                                size: 16,
-                                fields: Borrowed(
-                                    &[
-                                        FieldPlan {
-                                            name: Borrowed("strength"),
-                                            ty: ValueType::Scalar(Scalar::F32),
-                                            offset: 0,
-                                            default: None,
-                                            part: None,
-                                            frame_size: false,
-                                        },
-                                    ],
-                                ),
-                            },
-                        ],
-                    ),
-                    region: None,
-                    varyings: Borrowed(&[]),
-                    outputs: Borrowed(
-                        &[
-                            OutputPlan {
-                                name: Borrowed("destination"),
-                                place: Some((0, 3)),
-                                format: Format::Rgba32Float,
-                            },
-                        ],
-                    ),
-                },
-            )
-        };
-    }
-    /// Shader `glow_small`.
-    #[allow(dead_code)]
-    pub mod glow_small {
-        use straightline_runtime::wgpu;
-        /// The shader.
-        pub const WGSL: &str = include_str!("glow_small.wgsl");
-        /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
-        pub const MANIFEST: &str = include_str!("glow_small.json");
-        /// Name of the entry point.
-        pub const ENTRY_POINT: &str = "glow_small";
-        /// Invocations in a workgroup.
-        pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
-        /// Layout of bind group 0, for a custom pipeline.
-        pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
-            label: Some("glow_small"),
-            entries: &[
-                wgpu::BindGroupLayoutEntry {
-                    binding: 0,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::Texture {
-                        sample_type: wgpu::TextureSampleType::Float {
-                            filterable: false,
+            /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
+            pub static SHADER: straightline_runtime::Shader<'static> = {
+                use straightline_runtime::Shader;
+                use straightline_runtime::plan::{
+                    Borrowed, Dimension, Extent, FieldPlan, Format, InputKind, InputPlan,
+                    OutputPlan, Plan, SampleType, SamplerType, Scalar, StagePlan,
+                    TexturePlan, UniformPlan, ValueType,
+                };
+                Shader::generated(
+                    WGSL,
+                    0x44e0_8b0f_f203_c1c7,
+                    straightline_runtime::loops_end!(),
+                    Plan {
+                        kernel: Borrowed("glow"),
+                        entry_point: Borrowed("glow"),
+                        stage: StagePlan::Compute {
+                            workgroup: WORKGROUP_SIZE,
+                            fills_memory: false,
                         },
-                        view_dimension: wgpu::TextureViewDimension::D2,
-                        multisampled: false,
+                        block: [1, 1],
+                        features: Borrowed(&[]),
+                        inputs: Borrowed(
+                            &[
+                                InputPlan {
+                                    name: Borrowed("color"),
+                                    group: 0,
+                                    binding: 0,
+                                    kind: InputKind::Texture(TexturePlan {
+                                        dimension: Dimension::D2,
+                                        sample_type: SampleType::Unfilterable,
+                                        components: 4,
+                                        layers: 1,
+                                        samples: 1,
+                                        extent: Extent::Output,
+                                    }),
+                                },
+                                InputPlan {
+                                    name: Borrowed("small"),
+                                    group: 0,
+                                    binding: 1,
+                                    kind: InputKind::Texture(TexturePlan {
+                                        dimension: Dimension::D2,
+                                        sample_type: SampleType::Filterable,
+                                        components: 4,
+                                        layers: 1,
+                                        samples: 1,
+                                        extent: Extent::Any,
+                                    }),
+                                },
+                                InputPlan {
+                                    name: Borrowed("linear"),
+                                    group: 0,
+                                    binding: 2,
+                                    kind: InputKind::Sampler(SamplerType::Filtering),
+                                },
+                            ],
+                        ),
+                        uniforms: Borrowed(
+                            &[
+                                UniformPlan {
+                                    name: Borrowed("parameters"),
+                                    group: 0,
+                                    binding: 4,
+                                    size: 16,
+                                    fields: Borrowed(
+                                        &[
+                                            FieldPlan {
+                                                name: Borrowed("strength"),
+                                                ty: ValueType::Scalar(Scalar::F32),
+                                                offset: 0,
+                                                default: None,
+                                                part: None,
+                                                frame_size: false,
+                                            },
+                                        ],
+                                    ),
+                                },
+                            ],
+                        ),
+                        region: None,
+                        varyings: Borrowed(&[]),
+                        outputs: Borrowed(
+                            &[
+                                OutputPlan {
+                                    name: Borrowed("destination"),
+                                    place: Some((0, 3)),
+                                    format: Format::Rgba32Float,
+                                },
+                            ],
+                        ),
                     },
-                    count: None,
-                },
-                wgpu::BindGroupLayoutEntry {
-                    binding: 1,
-                    visibility: wgpu::ShaderStages::COMPUTE,
-                    ty: wgpu::BindingType::StorageTexture {
-                        access: wgpu::StorageTextureAccess::WriteOnly,
-                        format: wgpu::TextureFormat::Rgba16Float,
-                        view_dimension: wgpu::TextureViewDimension::D2,
-                    },
-                    count: None,
-                },
-            ],
-        };
-        /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
-        pub static SHADER: straightline_runtime::Shader<'static> = {
-            use straightline_runtime::Shader;
-            use straightline_runtime::plan::{
-                Borrowed, Dimension, Extent, Format, InputKind, InputPlan, OutputPlan,
-                Plan, SampleType, StagePlan, TexturePlan,
+                )
             };
-            Shader::generated(
-                WGSL,
-                0xf725_46ea_0134_9329,
-                straightline_runtime::loops_end!(),
-                Plan {
-                    kernel: Borrowed("glow_small"),
-                    entry_point: Borrowed("glow_small"),
-                    stage: StagePlan::Compute {
-                        workgroup: WORKGROUP_SIZE,
-                        fills_memory: false,
+        }
+        /// Shader `glow_small`.
+        #[allow(dead_code)]
+        pub mod glow_small {
+            use straightline_runtime::wgpu;
+            /// The shader.
+            pub const WGSL: &str = include_str!("glow_small.wgsl");
+            /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+            pub const MANIFEST: &str = include_str!("glow_small.json");
+            /// Name of the entry point.
+            pub const ENTRY_POINT: &str = "glow_small";
+            /// Invocations in a workgroup.
+            pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
+            /// Layout of bind group 0, for a custom pipeline.
+            pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
+                label: Some("glow_small"),
+                entries: &[
+                    wgpu::BindGroupLayoutEntry {
+                        binding: 0,
+                        visibility: wgpu::ShaderStages::COMPUTE,
+                        ty: wgpu::BindingType::Texture {
+                            sample_type: wgpu::TextureSampleType::Float {
+                                filterable: false,
+                            },
+                            view_dimension: wgpu::TextureViewDimension::D2,
+                            multisampled: false,
+                        },
+                        count: None,
                     },
-                    block: [1, 1],
-                    features: Borrowed(&[]),
-                    inputs: Borrowed(
-                        &[
-                            InputPlan {
-                                name: Borrowed("color"),
-                                group: 0,
-                                binding: 0,
-                                kind: InputKind::Texture(TexturePlan {
-                                    dimension: Dimension::D2,
-                                    sample_type: SampleType::Unfilterable,
-                                    components: 4,
-                                    layers: 1,
-                                    samples: 1,
-                                    extent: Extent::Any,
-                                }),
-                            },
-                        ],
-                    ),
-                    uniforms: Borrowed(&[]),
-                    region: None,
-                    varyings: Borrowed(&[]),
-                    outputs: Borrowed(
-                        &[
-                            OutputPlan {
-                                name: Borrowed("destination"),
-                                place: Some((0, 1)),
-                                format: Format::Rgba16Float,
-                            },
-                        ],
-                    ),
-                },
-            )
-        };
+                    wgpu::BindGroupLayoutEntry {
+                        binding: 1,
+                        visibility: wgpu::ShaderStages::COMPUTE,
+                        ty: wgpu::BindingType::StorageTexture {
+                            access: wgpu::StorageTextureAccess::WriteOnly,
+                            format: wgpu::TextureFormat::Rgba16Float,
+                            view_dimension: wgpu::TextureViewDimension::D2,
+                        },
+                        count: None,
+                    },
+                ],
+            };
+            /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
+            pub static SHADER: straightline_runtime::Shader<'static> = {
+                use straightline_runtime::Shader;
+                use straightline_runtime::plan::{
+                    Borrowed, Dimension, Extent, Format, InputKind, InputPlan,
+                    OutputPlan, Plan, SampleType, StagePlan, TexturePlan,
+                };
+                Shader::generated(
+                    WGSL,
+                    0xf725_46ea_0134_9329,
+                    straightline_runtime::loops_end!(),
+                    Plan {
+                        kernel: Borrowed("glow_small"),
+                        entry_point: Borrowed("glow_small"),
+                        stage: StagePlan::Compute {
+                            workgroup: WORKGROUP_SIZE,
+                            fills_memory: false,
+                        },
+                        block: [1, 1],
+                        features: Borrowed(&[]),
+                        inputs: Borrowed(
+                            &[
+                                InputPlan {
+                                    name: Borrowed("color"),
+                                    group: 0,
+                                    binding: 0,
+                                    kind: InputKind::Texture(TexturePlan {
+                                        dimension: Dimension::D2,
+                                        sample_type: SampleType::Unfilterable,
+                                        components: 4,
+                                        layers: 1,
+                                        samples: 1,
+                                        extent: Extent::Any,
+                                    }),
+                                },
+                            ],
+                        ),
+                        uniforms: Borrowed(&[]),
+                        region: None,
+                        varyings: Borrowed(&[]),
+                        outputs: Borrowed(
+                            &[
+                                OutputPlan {
+                                    name: Borrowed("destination"),
+                                    place: Some((0, 1)),
+                                    format: Format::Rgba16Float,
+                                },
+                            ],
+                        ),
+                    },
+                )
+            };
+        }
     }
     /// Passes and pictures of the chain as JSON, for other programs.
     #[allow(dead_code)]
@@ -2837,7 +2842,10 @@ pub mod glow {
                     ],
                 ),
             },
-            &[("glow", &glow::SHADER), ("glow_small", &glow_small::SHADER)],
+            &[
+                ("glow", &shaders::glow::SHADER),
+                ("glow_small", &shaders::glow_small::SHADER),
+            ],
         )
     };
 }
