@@ -157,8 +157,8 @@ fn named_small(from: &Texture<Vec4>, pixel: IVec2) -> Vec4 {
 /// A pass and a function that could have one name.
 pub fn named(color: &Texture<Vec4>, _linear: &Sampler, strength: f32) -> Texture<Vec4> {
     let small: Texture<Vec4> = draw(color.size() / 2, |pixel| named_small(color, pixel));
-    let r#type: Texture<Vec4> = draw(small.size(), |pixel| small.load(pixel) * strength);
-    draw(color.size(), |pixel| r#type.load(pixel / 2))
+    let half: Texture<Vec4> = draw(small.size(), |pixel| small.load(pixel) * strength);
+    draw(color.size(), |pixel| half.load(pixel / 2))
 }
 
 /// Frames, which have the size of what is drawn of them.
