@@ -54,6 +54,9 @@ fn what_rustc_refuses_is_refused() {
     let rustc = Rustc::find().unwrap_or_else(|why| panic!("{why}"));
     let (verdicts, lenient) =
         oracle::judge_changed(&rustc, SEED..SEED + 300, Features::all()).unwrap_or_else(|why| panic!("{why}"));
+    for case in &lenient {
+        println!("{}: {}", case.line, case.error);
+    }
     if let Some(case) = lenient.first() {
         panic!("{}\nchanged line: {}\nrustc: {}", case.text, case.line, case.error);
     }
