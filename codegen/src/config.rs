@@ -16,7 +16,7 @@
 
 use crate::chain::{Chain, ChainSpec, CompiledChain, EmittedChain};
 use crate::compiled::Compiled;
-use crate::emit;
+use crate::emit::{self, Emitted};
 use crate::files::{self, WriteError};
 use crate::kernel::Kernel;
 use crate::spec::{Source, Target};
@@ -25,7 +25,6 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use straightline_evaluator::diagnostic::Errors;
 use straightline_evaluator::front::raw_name;
-use straightline_manifest::Manifest;
 
 pub use crate::spec::KernelConfig;
 
@@ -60,8 +59,7 @@ enum Built {
 struct BuiltShader {
     name: String,
     compiled: Compiled,
-    manifest: Manifest,
-    files: BTreeMap<String, Vec<u8>>,
+    emitted: Emitted,
 }
 
 impl BuiltShader {
@@ -69,17 +67,9 @@ impl BuiltShader {
         emit::Module {
             name: &self.name,
             compiled: &self.compiled,
-            manifest: &self.manifest,
-            wgsl: self.wgsl(),
+            manifest: &self.emitted.manifest,
+            wgsl: self.emitted.wgsl(),
         }
-    }
-
-    /// Returns the text of the WGSL, which is always written.
-    fn wgsl(&self) -> &str {
-        let bytes = self.files.get(&format!("{}.wgsl", self.name));
-        bytes
-            .and_then(|bytes| std::str::from_utf8(bytes).ok())
-            .unwrap_or_default()
     }
 }
 
@@ -94,7 +84,7 @@ impl Built {
 
     fn files(&self) -> BTreeMap<String, Vec<u8>> {
         match self {
-            Built::Shader(shader) => shader.files.clone(),
+            Built::Shader(shader) => shader.emitted.named_files(&shader.name),
             Built::Chain(chain) => chain.1.named_files(),
         }
     }
@@ -155,12 +145,10 @@ fn build_shader(config: &KernelConfig) -> Result<BuiltShader, Error> {
     let (compiled, emitted) = spec
         .emit(&kernel)
         .map_err(|e| Error::from_problem(Problem::Kernel(e)))?;
-    let files = emitted.named_files(&name);
     Ok(BuiltShader {
         name,
         compiled,
-        manifest: emitted.manifest,
-        files,
+        emitted,
     })
 }
 

@@ -206,6 +206,7 @@ impl<'s> Pipeline<'s, '_> {
     }
 }
 
-fn first_sentence(docs: &str) -> String {
+/// Returns the first sentence of a documentation.
+pub fn first_sentence(docs: &str) -> String {
     docs.split_inclusive(". ").next().unwrap_or_default().trim().to_owned()
 }

@@ -157,8 +157,17 @@ fn named_small(from: &Texture<Vec4>, pixel: IVec2) -> Vec4 {
 /// A pass and a function that could have one name.
 pub fn named(color: &Texture<Vec4>, _linear: &Sampler, strength: f32) -> Texture<Vec4> {
     let small: Texture<Vec4> = draw(color.size() / 2, |pixel| named_small(color, pixel));
-    let half: Texture<Vec4> = draw(small.size(), |pixel| small.load(pixel) * strength);
-    draw(color.size(), |pixel| half.load(pixel / 2))
+    let r#type: Texture<Vec4> = draw(small.size(), |pixel| small.load(pixel) * strength);
+    draw(color.size(), |pixel| r#type.load(pixel / 2))
+}
+
+/// Passes of one text, of which the first reads a picture that can be computed in place.
+pub fn repeated(color: &Texture<Vec4>, _linear: &Sampler, strength: f32) -> Texture<Vec4> {
+    let mut current: Texture<Vec4> = draw(color.size(), |pixel| color.load(pixel) - 0.25);
+    for _ in 0..3 {
+        current = draw(color.size(), |pixel| current.load(pixel + ivec2(1, 0)) * strength);
+    }
+    current
 }
 
 /// Frames, which have the size of what is drawn of them.

@@ -1,13 +1,12 @@
 //! Chains of passes on a device.
 
 use super::gpu::Uploaded;
-use super::{Bench, ExecuteError, Inputs, Written, picture_size};
-use glam::UVec2;
+use super::{Bench, ExecuteError, Inputs, Work, Written, picture_size};
 use std::collections::BTreeMap;
+use std::time::Duration;
 use straightline_codegen::chain::EmittedChain;
-use straightline_codegen::emit::Target;
-use straightline_manifest::{Binding, BindingKind, Manifest};
-use straightline_runtime::{Chain, PassOptions, Shader};
+use straightline_manifest::{Binding, BindingKind};
+use straightline_runtime::{BoundChain, Chain, PassOptions, Shader};
 
 impl Bench {
     /// Makes a chain of its emitted shaders.
@@ -16,34 +15,14 @@ impl Bench {
     ///
     /// If the device cannot run one of them.
     pub fn create_chain(&self, emitted: &EmittedChain) -> Result<Chain, ExecuteError> {
-        let texts: Vec<(&str, &Manifest, String)> = emitted
-            .shaders
-            .iter()
-            .map(|(name, pass)| {
-                let wgsl = pass
-                    .emitted
-                    .files
-                    .get(&Target::Wgsl)
-                    .map(Vec::as_slice)
-                    .unwrap_or_default();
-                (
-                    name.as_str(),
-                    &pass.emitted.manifest,
-                    String::from_utf8_lossy(wgsl).into_owned(),
-                )
-            })
-            .collect();
-        let shaders: Vec<(&str, Shader<'_>)> = texts
-            .iter()
-            .map(|(name, manifest, wgsl)| Ok((*name, Shader::from_manifest(manifest, wgsl)?)))
-            .collect::<Result<_, ExecuteError>>()?;
+        let shaders = emitted.shaders.iter().map(|(name, pass)| {
+            let shader = Shader::from_manifest(&pass.emitted.manifest, pass.emitted.wgsl())?;
+            Ok((name.as_str(), shader))
+        });
+        let shaders = shaders.collect::<Result<Vec<_>, ExecuteError>>()?;
         let shaders: Vec<(&str, &Shader<'_>)> = shaders.iter().map(|(name, shader)| (*name, shader)).collect();
-        Ok(Chain::from_shaders(
-            &self.device,
-            &emitted.plan,
-            &shaders,
-            &PassOptions::default(),
-        )?)
+        let options = PassOptions::default();
+        Ok(Chain::from_shaders(&self.device, &emitted.plan, &shaders, &options)?)
     }
 
     /// Puts onto the device what a chain takes from the caller.
@@ -52,31 +31,39 @@ impl Bench {
     ///
     /// If something is missing, or the device refuses it.
     pub fn upload_for_chain(&self, emitted: &EmittedChain, inputs: &Inputs) -> Result<Uploaded, ExecuteError> {
-        let mut bindings: BTreeMap<&str, Binding> = BTreeMap::new();
-        let mut structs: Vec<Binding> = Vec::new();
-        let mut manifest: Option<Manifest> = None;
+        let mut resources: BTreeMap<&str, Binding> = BTreeMap::new();
+        let mut all: Vec<Binding> = Vec::new();
         for pass in emitted.plan.passes.iter() {
-            let own = &emitted.shaders[&*pass.shader].emitted.manifest;
-            for read in pass
-                .reads
-                .iter()
-                .filter(|read| emitted.plan.inputs.contains(&read.from))
-            {
-                let found = own.bindings.iter().find(|binding| *binding.name == *read.name);
-                if let Some(found) = found {
-                    let mut binding = found.clone();
-                    binding.name = read.from.to_string();
-                    widen(bindings.entry(&read.from).or_insert(binding), found);
+            let bindings = &emitted.shaders[&*pass.shader].emitted.manifest.bindings;
+            let given = |from: &str| emitted.plan.inputs.iter().any(|input| input == from);
+            for read in pass.reads.iter().filter(|read| given(&read.from)) {
+                if let Some(found) = bindings.iter().find(|binding| *binding.name == *read.name) {
+                    let name = read.from.to_string();
+                    let renamed = || Binding { name, ..found.clone() };
+                    widen(resources.entry(&read.from).or_insert_with(renamed), found);
                 }
             }
-            structs.extend(own.bindings.iter().filter_map(without_frame_size));
-            manifest.get_or_insert_with(|| own.clone());
+            all.extend(bindings.iter().filter_map(without_frame_size));
         }
-        let Some(mut manifest) = manifest else {
-            return Err(ExecuteError::Input("the chain has no passes".to_owned()));
-        };
-        manifest.bindings = bindings.into_values().chain(structs).collect();
-        self.upload(&manifest, inputs)
+        all.extend(resources.into_values());
+        self.upload_bindings(&all, inputs, &Uploaded::default())
+    }
+
+    /// A chain with its inputs, targets and the textures between its passes.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be run on these inputs.
+    pub fn bind_chain(&self, emitted: &EmittedChain, inputs: &Inputs) -> Result<BoundChain, ExecuteError> {
+        let chain = self.create_chain(emitted)?;
+        let uploaded = self.upload_for_chain(emitted, inputs)?;
+        let mut views = Vec::new();
+        for (picture, (name, format)) in emitted.plan.results().zip(chain.targets()) {
+            let target = self.create_target(picture_size(&picture.size, inputs)?, format);
+            views.push((name, target.create_view(&wgpu::TextureViewDescriptor::default())));
+        }
+        let targets: Vec<(&str, &wgpu::TextureView)> = views.iter().map(|(name, view)| (*name, view)).collect();
+        Ok(chain.bind_with(&uploaded.resources(), targets.as_slice(), &uploaded.bind_options())?)
     }
 
     /// Runs a chain, whose results are of 32-bit components, and returns them.
@@ -85,36 +72,40 @@ impl Bench {
     ///
     /// If it cannot be run on these inputs.
     pub fn run_chain(&self, emitted: &EmittedChain, inputs: &Inputs) -> Result<Vec<Written>, ExecuteError> {
-        let chain = self.create_chain(emitted)?;
-        let uploaded = self.upload_for_chain(emitted, inputs)?;
-        let targets: Vec<(&str, UVec2, wgpu::Texture)> = emitted
-            .plan
-            .results()
-            .zip(chain.targets())
-            .map(|(picture, (name, format))| {
-                let size = picture_size(&picture.size, inputs)?;
-                Ok((name, size, self.create_target(size, format)))
-            })
-            .collect::<Result<_, ExecuteError>>()?;
-        let views: Vec<wgpu::TextureView> = targets
-            .iter()
-            .map(|(_, _, texture)| texture.create_view(&wgpu::TextureViewDescriptor::default()))
-            .collect();
-        let named: Vec<(&str, &wgpu::TextureView)> = targets.iter().map(|(name, ..)| *name).zip(&views).collect();
-        let bound = uploaded.bind_chain(&chain, &named)?;
+        let bound = self.bind_chain(emitted, inputs)?;
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         bound.encode(&mut encoder);
         self.queue.submit([encoder.finish()]);
-        let written = targets.iter().map(|(name, size, texture)| {
+        let views = emitted.plan.results().filter_map(|picture| {
+            let view = bound.picture(&picture.name)?;
+            Some((picture, view.texture()))
+        });
+        let written = views.map(|(picture, texture)| {
             Ok(Written {
-                name: (*name).to_owned(),
-                size: *size,
+                name: picture.name.to_string(),
+                size: picture_size(&picture.size, inputs)?,
                 texels: self.read_texels(texture)?,
             })
         });
         written.collect()
+    }
+
+    /// A chain to be timed with others, repeated as [`timed_for`](Self::timed_for) says. The times of its passes are added up.
+    ///
+    /// # Errors
+    ///
+    /// If the device cannot be asked for the time.
+    pub fn chain_work<'a>(&self, bound: &'a BoundChain, least: Duration) -> Result<Work<'a>, ExecuteError> {
+        let passes = bound.passes().len() as u32;
+        self.recorded_work(passes, least, move |encoder, timer| {
+            match timer {
+                Some(timer) => bound.encode_timed(encoder, timer)?,
+                None => bound.encode(encoder),
+            }
+            Ok(())
+        })
     }
 }
 

@@ -4,13 +4,13 @@ use super::convert;
 use super::textures::integers_of;
 use super::{Address, Comparison, ExecuteError, Inputs, SamplerState, Written, find_entry, has_input};
 use glam::{UVec2, Vec4, uvec2};
-use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::emit::Emitted;
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
 use straightline_manifest::{Binding, BindingKind, BufferType, Element, Manifest, SamplerType, UniformField};
 use straightline_runtime::{
-    BindOptions, Bound, BoundChain, BoundDraw, Chain, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource,
-    Targets, UniformValue,
+    BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
+    UniformValue,
 };
 use wgpu::{TextureFormat, TextureUsages};
 
@@ -32,7 +32,7 @@ pub type Buffers = Vec<(String, Vec<[f64; 4]>)>;
 pub type AllWritten = (Vec<Written>, Buffers);
 
 /// A shader's inputs on a device, and its uniforms.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Uploaded {
     resources: Vec<(String, Owned)>,
     uniforms: Vec<(String, UniformValue)>,
@@ -53,19 +53,6 @@ impl Uploaded {
     /// If they do not fit.
     pub fn bind<'t>(&self, pass: &Pass, targets: impl Into<Targets<'t>>) -> Result<Bound, RuntimeError> {
         pass.bind_with(&self.resources(), targets, &self.bind_options())
-    }
-
-    /// A chain that reads these inputs, and writes `targets`.
-    ///
-    /// # Errors
-    ///
-    /// If they do not fit.
-    pub(super) fn bind_chain(
-        &self,
-        chain: &Chain,
-        targets: &[(&str, &wgpu::TextureView)],
-    ) -> Result<BoundChain, RuntimeError> {
-        chain.bind_with(&self.resources(), targets, &self.bind_options())
     }
 
     /// A pass that reads these inputs, for a rectangle of `targets`.
@@ -91,7 +78,7 @@ impl Uploaded {
         draw.bind_with(&self.resources(), &self.bind_options())
     }
 
-    fn bind_options(&self) -> BindOptions<'_> {
+    pub(super) fn bind_options(&self) -> BindOptions<'_> {
         let values = self.uniforms.iter();
         values.fold(BindOptions::default(), |options, (name, value)| {
             options.uniform(name, value.clone())
@@ -203,14 +190,10 @@ impl Bench {
     ///
     /// If the device cannot run it.
     pub fn create_pass(&self, emitted: &Emitted, options: &PassOptions) -> Result<Pass, ExecuteError> {
-        let wgsl = emitted
-            .files
-            .get(&Target::Wgsl)
-            .map(|bytes| String::from_utf8_lossy(bytes));
         Ok(Pass::with_options(
             &self.device,
             &emitted.manifest,
-            &wgsl.unwrap_or_default(),
+            emitted.wgsl(),
             options,
         )?)
     }
@@ -221,11 +204,7 @@ impl Bench {
     ///
     /// If something is missing, or the device refuses it.
     pub fn upload(&self, manifest: &Manifest, inputs: &Inputs) -> Result<Uploaded, ExecuteError> {
-        let nothing = Uploaded {
-            resources: Vec::new(),
-            uniforms: Vec::new(),
-        };
-        self.upload_onto(manifest, inputs, &nothing)
+        self.upload_onto(manifest, inputs, &Uploaded::default())
     }
 
     /// As [`upload`](Self::upload), with what `inputs` does not have taken from what is there already.
@@ -239,8 +218,18 @@ impl Bench {
         inputs: &Inputs,
         there: &Uploaded,
     ) -> Result<Uploaded, ExecuteError> {
+        self.upload_bindings(&manifest.bindings, inputs, there)
+    }
+
+    /// As [`upload_onto`](Self::upload_onto), for bindings by themselves.
+    pub(super) fn upload_bindings(
+        &self,
+        bindings: &[Binding],
+        inputs: &Inputs,
+        there: &Uploaded,
+    ) -> Result<Uploaded, ExecuteError> {
         let mut resources = Vec::new();
-        for binding in &manifest.bindings {
+        for binding in bindings {
             let found = there.resources.iter().find(|(name, _)| *name == binding.name);
             let owned = match found.filter(|_| !has_input(inputs, &binding.name)) {
                 Some((_, owned)) => Some(owned.clone()),
@@ -250,7 +239,7 @@ impl Bench {
         }
         Ok(Uploaded {
             resources,
-            uniforms: uniform_values(manifest, inputs),
+            uniforms: uniform_values(bindings, inputs),
         })
     }
 
@@ -330,7 +319,7 @@ impl Bench {
         }
         Ok(Uploaded {
             resources,
-            uniforms: uniform_values(manifest, inputs),
+            uniforms: uniform_values(&manifest.bindings, inputs),
         })
     }
 
@@ -627,9 +616,9 @@ impl Bench {
 }
 
 /// The uniforms of a shader that `inputs` say; of the region's none, which is stated with each that is bound.
-fn uniform_values(manifest: &Manifest, inputs: &Inputs) -> Vec<(String, UniformValue)> {
+fn uniform_values(bindings: &[Binding], inputs: &Inputs) -> Vec<(String, UniformValue)> {
     let mut uniforms = Vec::new();
-    for binding in &manifest.bindings {
+    for binding in bindings {
         if let BindingKind::Uniform { fields, .. } = &binding.kind
             && !binding.is_region()
         {

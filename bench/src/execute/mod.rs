@@ -2,7 +2,6 @@
 
 mod chain;
 mod chain_gpu;
-mod chain_work;
 mod convert;
 mod cpu;
 mod forward;

@@ -5,7 +5,7 @@ use super::fusion::{self, Decision};
 use super::spec::ChainSpec;
 use crate::compiled::Compiled;
 use crate::kernel::Kernel;
-use crate::pipeline::Start;
+use crate::pipeline::{Start, first_sentence};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File};
@@ -71,7 +71,7 @@ pub(super) fn compile_passes(
             .collect(),
         results: chain.results.iter().map(|index| stored(*index)).collect(),
         name: chain.name,
-        summary: chain.summary,
+        summary: first_sentence(&chain.docs),
         inputs: chain.inputs,
         passes,
         pictures,
@@ -176,17 +176,22 @@ impl Compiler<'_> {
             let start = self.fuse_pass(&starts[&pass.entry], index, decision, (&fused, sized))?;
             if !decision.fused[index] {
                 let reads = self.reads_of(&start, decision);
-                let taken = |name: &str| planned.iter().any(|other| other.kernel == name);
-                let names = (1..).map(|k| {
-                    if k == 1 {
-                        pass.entry.clone()
-                    } else {
-                        format!("{}_{k}", pass.entry)
-                    }
-                });
+                let numbered = (2..).map(|k: u32| format!("{}_{k}", pass.entry));
+                let mut names = std::iter::once(pass.entry.clone()).chain(numbered);
+                // Other passes may have the kernel without the fused pictures.
+                let others = || {
+                    self.chain
+                        .passes
+                        .iter()
+                        .enumerate()
+                        .filter(|(other, _)| *other != index)
+                };
+                let taken = |name: &str| {
+                    planned.iter().any(|other| other.kernel == name) || others().any(|(_, other)| other.entry == name)
+                };
                 planned.push(Planned {
                     picture: index,
-                    kernel: names.into_iter().find(|name| !taken(name)).expect("endless"),
+                    kernel: names.find(|name| !taken(name)).expect("endless"),
                     entry: pass.entry.clone(),
                     fused: Some(start.clone()),
                     reads,
@@ -256,7 +261,7 @@ impl Compiler<'_> {
         start
     }
 
-    /// What a fused kernel reads: its resources are called after that.
+    /// Resources of a fused kernel, which are called after what they hold.
     fn reads_of(&self, start: &Start, decision: &Decision) -> Vec<(String, Source)> {
         let graph = &start.graph;
         let names = graph.textures.iter().map(|texture| &texture.name);

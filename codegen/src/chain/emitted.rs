@@ -85,7 +85,7 @@ impl CompiledChain {
 }
 
 fn plan_chain(chain: &CompiledChain, shaders: &BTreeMap<String, EmittedPass>) -> ChainPlan {
-    // What the options make unnecessary is not read.
+    // Options can make inputs unnecessary.
     let reads: Vec<Vec<(&String, &Source)>> = chain
         .passes
         .iter()

@@ -54,11 +54,11 @@ pub enum Fuse {
     /// None: each call of `draw` is a pass.
     #[default]
     None,
-    /// Those that cost less to compute again than to store and read ([`CompiledChain`](super::CompiledChain)).
+    /// Pictures that cost no more to compute at every read than to store and read.
     Auto,
     /// All that can be.
     All,
-    /// Those of these names.
+    /// Pictures of these names.
     Named(BTreeSet<String>),
 }
 

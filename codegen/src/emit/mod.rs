@@ -70,6 +70,12 @@ pub struct Emitted {
 }
 
 impl Emitted {
+    /// Returns the text in WGSL; empty if it was not requested.
+    pub fn wgsl(&self) -> &str {
+        let bytes = self.files.get(&Target::Wgsl).map(Vec::as_slice).unwrap_or_default();
+        std::str::from_utf8(bytes).unwrap_or_default()
+    }
+
     /// Returns the files by name, and the manifest with these names: `stem.wgsl`, `stem.json`, ...
     pub fn named_files(&self, stem: &str) -> BTreeMap<String, Vec<u8>> {
         let mut manifest = self.manifest.clone();

@@ -9,9 +9,10 @@ use crate::ir::{
 };
 use crate::limits;
 use rustc_hash::FxHashMap;
+use std::cell::RefCell;
 use std::fmt;
 use std::sync::Arc;
-use straightline_manifest::chain::{SizeOp, SizeRule, SizeTerm};
+use straightline_manifest::chain::{BadRule, SizeOp, SizeRule, SizeTerm};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
@@ -338,41 +339,33 @@ impl Fuse<'_> {
 
 /// A size by its rule, in the sizes of textures that the graph has.
 fn size_node(builder: &mut Builder<'_>, rule: &SizeRule) -> NodeId {
-    let mut stack = Vec::new();
-    for term in rule.0.iter() {
-        let node = match term {
-            SizeTerm::Of(name) => {
-                let textures = &builder.graph().textures;
-                let index = textures
-                    .iter()
-                    .position(|texture| texture.name == **name)
-                    .unwrap_or_default();
-                match textures[index].framed {
-                    true => builder.add(Op::FrameSize, [], PAIR),
-                    false => builder.add(Op::TextureSize(index as u32), [], PAIR),
-                }
-            }
-            SizeTerm::Number([x, y]) => builder.constant(PAIR, [*x, *y, 0, 0]),
-            SizeTerm::Apply(op) => {
-                let (b, a) = (stack.pop(), stack.pop());
-                let (Some(a), Some(b)) = (a, b) else {
-                    continue;
-                };
-                let op = match op {
-                    SizeOp::Add => BinaryOp::Add,
-                    SizeOp::Sub => BinaryOp::Sub,
-                    SizeOp::Mul => BinaryOp::Mul,
-                    SizeOp::Div => BinaryOp::Div,
-                    SizeOp::Max => BinaryOp::Max,
-                    SizeOp::Min => BinaryOp::Min,
-                };
-                builder.add(Op::Binary(op), [a, b], PAIR)
-            }
+    let builder = RefCell::new(builder);
+    let number = |[x, y]: [u32; 2]| builder.borrow_mut().constant(PAIR, [x, y, 0, 0]);
+    let of = |name: &str| {
+        let mut builder = builder.borrow_mut();
+        let textures = &builder.graph().textures;
+        let index = textures.iter().position(|texture| texture.name == name);
+        let index = index.ok_or_else(|| BadRule(format!("no texture `{name}`")))?;
+        let op = match textures[index].framed {
+            true => Op::FrameSize,
+            false => Op::TextureSize(index as u32),
         };
-        stack.push(node);
-    }
+        Ok(builder.add(op, [], PAIR))
+    };
+    let apply = |op: SizeOp, a: NodeId, b: NodeId| {
+        let op = match op {
+            SizeOp::Add => BinaryOp::Add,
+            SizeOp::Sub => BinaryOp::Sub,
+            SizeOp::Mul => BinaryOp::Mul,
+            SizeOp::Div => BinaryOp::Div,
+            SizeOp::Max => BinaryOp::Max,
+            SizeOp::Min => BinaryOp::Min,
+        };
+        builder.borrow_mut().add(Op::Binary(op), [a, b], PAIR)
+    };
+    let size = rule.fold(of, number, apply).expect("the textures were added before");
+    let builder = builder.into_inner();
     let one = builder.constant(PAIR, [1, 1, 0, 0]);
-    let size = stack.pop().unwrap_or(one);
     builder.add(Op::Binary(BinaryOp::Max), [size, one], PAIR)
 }
 

@@ -137,63 +137,78 @@ impl SizeRule {
         SizeRule(vec![SizeTerm::Of(name.to_owned().into())].into())
     }
 
+    /// Computes a value of the rule, from those of inputs by name, of numbers, and of operations on two values.
+    ///
+    /// # Errors
+    ///
+    /// Those of `of`; terms that leave no value or several on the stack, or are too many. The generator writes none such.
+    pub fn fold<T>(
+        &self,
+        mut of: impl FnMut(&str) -> Result<T, BadRule>,
+        mut number: impl FnMut([u32; 2]) -> T,
+        mut apply: impl FnMut(SizeOp, T, T) -> T,
+    ) -> Result<T, BadRule> {
+        if self.0.len() > MOST_TERMS {
+            return Err(BadRule(format!("{} terms, more than {MOST_TERMS}", self.0.len())));
+        }
+        let mut stack: Vec<T> = Vec::new();
+        for term in self.0.iter() {
+            let value = match term {
+                SizeTerm::Apply(op) => match (stack.pop(), stack.pop()) {
+                    (Some(b), Some(a)) => apply(*op, a, b),
+                    _ => return Err(BadRule("an operation without its two sizes".to_owned())),
+                },
+                SizeTerm::Of(name) => of(name)?,
+                SizeTerm::Number(size) => number(*size),
+            };
+            stack.push(value);
+        }
+        match (stack.pop(), stack.len()) {
+            (Some(value), 0) => Ok(value),
+            (last, left) => Err(BadRule(format!(
+                "{} sizes, not one",
+                left + usize::from(last.is_some())
+            ))),
+        }
+    }
+
     /// Computes the size, at least 1 in both directions. `size_of` gives the size of an input.
     ///
     /// # Errors
     ///
-    /// An input without a size; terms that leave no size or several on the stack, or are too many. The generator writes
-    /// none such.
+    /// An input without a size, and those of [`fold`](Self::fold).
     pub fn evaluate(&self, size_of: &dyn Fn(&str) -> Option<[u32; 2]>) -> Result<[u32; 2], BadRule> {
-        if self.0.len() > MOST_TERMS {
-            return Err(BadRule(format!("{} terms, more than {MOST_TERMS}", self.0.len())));
-        }
-        let mut stack: Vec<[u32; 2]> = Vec::new();
-        for term in self.0.iter() {
-            let size = match term {
-                SizeTerm::Of(name) => size_of(name).ok_or_else(|| BadRule(format!("`{name}` has no size")))?,
-                SizeTerm::Number(size) => *size,
-                SizeTerm::Apply(op) => match (stack.pop(), stack.pop()) {
-                    (Some(b), Some(a)) => [0, 1].map(|axis: usize| op.apply(a[axis], b[axis])),
-                    _ => return Err(BadRule("an operation without its two sizes".to_owned())),
-                },
-            };
-            stack.push(size);
-        }
-        match stack.as_slice() {
-            [size] => Ok(size.map(|side| side.max(1))),
-            left => Err(BadRule(format!("{} sizes, not one", left.len()))),
-        }
+        let of = |name: &str| size_of(name).ok_or_else(|| BadRule(format!("`{name}` has no size")));
+        let apply = |op: SizeOp, a: [u32; 2], b: [u32; 2]| [0, 1].map(|axis: usize| op.apply(a[axis], b[axis]));
+        let size = self.fold(of, |size| size, apply)?;
+        Ok(size.map(|side| side.max(1)))
     }
 }
 
 /// In infix form, as in Rust: `color.size() / 2`.
 impl fmt::Display for SizeRule {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut stack: Vec<String> = Vec::new();
-        for term in self.0.iter() {
-            let text = match term {
-                SizeTerm::Of(name) => format!("{name}.size()"),
-                SizeTerm::Number([x, y]) if x == y => x.to_string(),
-                SizeTerm::Number([x, y]) => format!("({x}, {y})"),
-                SizeTerm::Apply(op) => {
-                    let (b, a) = (stack.pop().unwrap_or_default(), stack.pop().unwrap_or_default());
-                    let grouped = |text: String| match text.contains(' ') && !text.starts_with('(') {
-                        true => format!("({text})"),
-                        false => text,
-                    };
-                    match op {
-                        SizeOp::Add => format!("{a} + {}", grouped(b)),
-                        SizeOp::Sub => format!("{a} - {}", grouped(b)),
-                        SizeOp::Mul => format!("{} * {}", grouped(a), grouped(b)),
-                        SizeOp::Div => format!("{} / {}", grouped(a), grouped(b)),
-                        SizeOp::Max => format!("{}.max({b})", grouped(a)),
-                        SizeOp::Min => format!("{}.min({b})", grouped(a)),
-                    }
-                }
-            };
-            stack.push(text);
+        // Each text has `true` if it is a sum, a product or the like.
+        let number = |[x, y]: [u32; 2]| match x == y {
+            true => (x.to_string(), false),
+            false => (format!("({x}, {y})"), false),
+        };
+        let grouped = |(text, is_compound): (String, bool)| match is_compound {
+            true => format!("({text})"),
+            false => text,
+        };
+        let apply = |op: SizeOp, a: (String, bool), b: (String, bool)| match op {
+            SizeOp::Add => (format!("{} + {}", a.0, grouped(b)), true),
+            SizeOp::Sub => (format!("{} - {}", a.0, grouped(b)), true),
+            SizeOp::Mul => (format!("{} * {}", grouped(a), grouped(b)), true),
+            SizeOp::Div => (format!("{} / {}", grouped(a), grouped(b)), true),
+            SizeOp::Max => (format!("{}.max({})", grouped(a), b.0), false),
+            SizeOp::Min => (format!("{}.min({})", grouped(a), b.0), false),
+        };
+        match self.fold(|name| Ok((format!("{name}.size()"), false)), number, apply) {
+            Ok((text, _)) => f.write_str(&text),
+            Err(bad) => write!(f, "{bad}"),
         }
-        f.write_str(&stack.join(", "))
     }
 }
 

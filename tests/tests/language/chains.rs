@@ -71,7 +71,7 @@ fn bits(of: &Texture<Vec4>) -> Vec<[u32; 4]> {
 
 type Native = fn(&Texture<Vec4>, &Sampler, f32) -> Texture<Vec4>;
 
-const ALL: [(&str, Native); 10] = [
+const ALL: [(&str, Native); 11] = [
     ("separable", constructs::separable),
     ("pyramid", constructs::pyramid),
     ("values", constructs::values),
@@ -81,6 +81,7 @@ const ALL: [(&str, Native); 10] = [
     ("kinds", constructs::kinds),
     ("sizes", constructs::sizes),
     ("named", constructs::named),
+    ("repeated", constructs::repeated),
     ("frames", constructs::frames),
 ];
 
@@ -112,6 +113,21 @@ fn every_construct_computes_the_bits_of_rust() {
                 );
             }
         }
+    }
+}
+
+/// Passes of one text have two kernels if a picture is computed in one of them.
+#[test]
+fn a_fused_picture_leaves_other_passes_of_its_text_alone() {
+    let compiled = compile("repeated", &exact().fuse(Fuse::Named(["current".to_owned()].into())));
+    assert_eq!(compiled.fused, ["current"]);
+    let kernels: Vec<&str> = compiled.passes.iter().map(|pass| pass.kernel.as_str()).collect();
+    assert!(kernels[0] != kernels[1] && kernels[1] == kernels[2], "{kernels:?}");
+    for size in SIZES {
+        let expected = constructs::repeated(&Texture::new(size, picture(size)), &linear(), 0.75);
+        let inputs = inputs(size).with_uniform("strength", &[0.75]);
+        let found = interpret_chain::<f32>(&compiled, &inputs).unwrap_or_else(|e| panic!("{e}"));
+        assert!(texels(&found) == bits(&expected), "at {size}");
     }
 }
 

@@ -3,7 +3,6 @@
 use super::shader::{quote_option, quote_shader, variant_name};
 use super::{Module, doc_line, quote_constants, rust_identifier};
 use crate::chain::{ChainPlan, CompiledChain, EmittedChain, SizeRule, SizeTerm};
-use crate::emit::Target;
 use crate::emit::prose::single_line_comment;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -40,17 +39,11 @@ pub fn quote_chain(chain: &ChainModule<'_>) -> Result<TokenStream, Errors> {
     let mut modules = Vec::new();
     for (shader, pass) in &emitted.shaders {
         let of = &compiled.kernels[&pass.kernel];
-        let wgsl = pass
-            .emitted
-            .files
-            .get(&Target::Wgsl)
-            .map(Vec::as_slice)
-            .unwrap_or_default();
         let module = Module {
             name: shader,
             compiled: of,
             manifest: &pass.emitted.manifest,
-            wgsl: std::str::from_utf8(wgsl).unwrap_or_default(),
+            wgsl: pass.emitted.wgsl(),
         };
         let constant = quote_shader(&module).map_err(|refusal| refusal.into_errors(of))?;
         let (ident, constants) = (rust_identifier(shader), quote_constants(&module));

@@ -108,7 +108,7 @@ enum Element {
     Length,
 }
 
-/// What follows the name of a list: `[index]`, `.len()`, or `.last().unwrap()`; with the position after it.
+/// Element that is named after a list, by `[index]`, `.len()` or `.last().unwrap()`, with the position after it.
 fn element_of(tokens: &[TokenTree], at: usize, len: i64, lookup: &dyn Lookup) -> (Option<Element>, usize) {
     if let Some(TokenTree::Group(group)) = tokens.get(at)
         && group.delimiter() == Delimiter::Bracket

@@ -27,7 +27,7 @@ impl Walk<'_> {
         match (holds, &branch.else_branch) {
             (true, _) => self.block(&branch.then_branch, place),
             (false, Some((_, otherwise))) => self.value(otherwise, place),
-            (false, None) => Ok(None),
+            (false, None) => Ok(Some(Value::Unit)),
         }
     }
 

@@ -92,7 +92,6 @@ impl Walk<'_> {
             values: captured.values,
             lets: &self.lets,
             params: &self.params,
-            docs: Vec::new(),
         };
         let mut made = item::make_kernel(parts).map_err(|two| {
             let what = format!("`{}` stands for two values in this pass", two.0);

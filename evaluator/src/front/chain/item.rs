@@ -6,6 +6,7 @@ use super::state::Let;
 use super::syntax::identifier;
 use super::value::Value;
 use super::{Source, signature};
+use crate::front::{raw_name, unraw};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens, quote, quote_spanned};
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The parameter of a kernel for its pixel.
 const PIXEL: &str = "pixel";
 
-/// A kernel that returns nothing of interest and takes the options of a chain.
+/// A kernel that takes the options of a chain, and whose result does not matter.
 pub fn options_only(chain: &syn::ItemFn) -> syn::ItemFn {
     let options = chain
         .sig
@@ -26,7 +27,7 @@ pub fn options_only(chain: &syn::ItemFn) -> syn::ItemFn {
     syn::parse2(tokens).expect("a function of parsed parameters")
 }
 
-/// What a pass is made of.
+/// Parts of a pass.
 pub struct PassParts<'a> {
     /// Name of the kernel.
     pub entry: Ident,
@@ -42,8 +43,6 @@ pub struct PassParts<'a> {
     pub lets: &'a [Let],
     /// Parameters of the chain, by name.
     pub params: &'a BTreeMap<String, syn::FnArg>,
-    /// Attributes of the chain.
-    pub docs: Vec<syn::Attribute>,
 }
 
 /// A pass as a kernel.
@@ -78,7 +77,7 @@ pub fn make_kernel(parts: PassParts<'_>) -> Result<Made, TwoValues> {
             Value::Image(image) => {
                 let ty = &image.ty.ty;
                 params.push(quote_spanned!(at=> #ident: &#ty));
-                reads.push((name.clone(), image.source.clone()));
+                reads.push((unraw(name).to_owned(), image.source.clone()));
                 taken.insert(name.clone());
             }
             Value::Param(outer) | Value::Options(outer) => {
@@ -87,17 +86,17 @@ pub fn make_kernel(parts: PassParts<'_>) -> Result<Made, TwoValues> {
                 };
                 if param_kind(ty) == ParamKind::Resource {
                     params.push(quote_spanned!(at=> #ident: #ty));
-                    reads.push((name.clone(), Source::Input(outer.clone())));
+                    reads.push((unraw(name).to_owned(), Source::Input(outer.clone())));
                     taken.insert(name.clone());
                     continue;
                 }
                 has_options |= param_kind(ty) == ParamKind::Options;
                 if taken.insert(outer.clone()) {
-                    let outer = identifier(outer, at);
+                    let outer = identifier(&raw_name(outer), at);
                     params.push(quote_spanned!(at=> #outer: #ty));
                 }
-                if name != outer {
-                    let outer = identifier(outer, at);
+                if unraw(name) != outer {
+                    let outer = identifier(&raw_name(outer), at);
                     consts.push(quote_spanned!(at=> let #ident = #outer;));
                 }
             }
@@ -116,7 +115,7 @@ pub fn make_kernel(parts: PassParts<'_>) -> Result<Made, TwoValues> {
         }
         if let Value::Size(rule) | Value::Side(rule, _) = value {
             for input in inputs_of(rule) {
-                if let (true, Some(param)) = (!values.contains_key(input), parts.params.get(input))
+                if let (true, Some(param)) = (!values.contains_key(&*raw_name(input)), parts.params.get(input))
                     && taken.insert(input.to_owned())
                 {
                     params.push(param.to_token_stream());
@@ -132,10 +131,9 @@ pub fn make_kernel(parts: PassParts<'_>) -> Result<Made, TwoValues> {
     let pixel = Ident::new(PIXEL, at);
     let pattern = parts.pixel.to_token_stream();
     let renamed = (pattern.to_string() != PIXEL).then(|| quote_spanned!(at=> let #pattern = #pixel;));
-    let (entry, texel, body, docs) = (&parts.entry, &parts.texel, &parts.body, &parts.docs);
+    let (entry, texel, body) = (&parts.entry, &parts.texel, &parts.body);
     let lets = lets.iter().map(|each| &each.captured.tokens);
     let tokens = quote_spanned! {at=>
-        #(#docs)*
         pub fn #entry(#(#params,)* #pixel: IVec2) -> #texel { #(#consts)* #(#lets)* #renamed #body }
     };
     Ok(Made {
@@ -200,8 +198,10 @@ pub fn text_without_name(kernel: &syn::ItemFn) -> String {
     kernel.to_token_stream().to_string()
 }
 
-/// Parameters of a chain by name, of those with a name.
+/// Parameters of a chain by name, without marks of raw identifiers.
 pub fn params_by_name(chain: &syn::Signature) -> BTreeMap<String, syn::FnArg> {
-    let named = |input: &syn::FnArg| signature::param_name(input).map(|(name, _)| (name.to_string(), input.clone()));
+    let named = |input: &syn::FnArg| {
+        signature::param_name(input).map(|(name, _)| (unraw(&name.to_string()).to_owned(), input.clone()))
+    };
     chain.inputs.iter().filter_map(named).collect()
 }

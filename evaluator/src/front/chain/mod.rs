@@ -43,8 +43,8 @@ pub struct Chain {
     pub name: String,
     /// Place of the name.
     pub span: Span,
-    /// First sentence of the function's documentation.
-    pub summary: String,
+    /// Documentation of the function.
+    pub docs: String,
     /// Textures, samplers and buffers that it takes.
     pub inputs: Vec<String>,
     /// Pictures in the order in which they are drawn; of each, the pass of the same index.

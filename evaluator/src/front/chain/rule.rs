@@ -1,5 +1,6 @@
 //! Arithmetic on sizes of pictures, as rules in the sizes of inputs.
 
+use crate::front::raw_name;
 use straightline_manifest::chain::{SizeOp, SizeRule, SizeTerm};
 
 /// A size that is a constant.
@@ -77,26 +78,18 @@ pub fn combine_sides(x: &SizeRule, y: &SizeRule) -> SizeRule {
 
 /// The rule as Rust of the kernel language.
 pub fn as_rust(rule: &SizeRule) -> String {
-    let mut stack: Vec<String> = Vec::new();
-    for term in rule.0.iter() {
-        let text = match term {
-            SizeTerm::Of(name) => format!("{name}.size()"),
-            SizeTerm::Number([x, y]) => format!("uvec2({x}, {y})"),
-            SizeTerm::Apply(op) => {
-                let (b, a) = (stack.pop().unwrap_or_default(), stack.pop().unwrap_or_default());
-                match op {
-                    SizeOp::Add => format!("({a} + {b})"),
-                    SizeOp::Sub => format!("({a} - {b})"),
-                    SizeOp::Mul => format!("({a} * {b})"),
-                    SizeOp::Div => format!("({a} / {b})"),
-                    SizeOp::Max => format!("{a}.max({b})"),
-                    SizeOp::Min => format!("{a}.min({b})"),
-                }
-            }
-        };
-        stack.push(text);
-    }
-    stack.pop().unwrap_or_default()
+    let of = |name: &str| Ok(format!("{}.size()", raw_name(name)));
+    let number = |[x, y]: [u32; 2]| format!("uvec2({x}, {y})");
+    let apply = |op: SizeOp, a: String, b: String| match op {
+        SizeOp::Add => format!("({a} + {b})"),
+        SizeOp::Sub => format!("({a} - {b})"),
+        SizeOp::Mul => format!("({a} * {b})"),
+        SizeOp::Div => format!("({a} / {b})"),
+        SizeOp::Max => format!("{a}.max({b})"),
+        SizeOp::Min => format!("{a}.min({b})"),
+    };
+    rule.fold(of, number, apply)
+        .expect("rules are made of whole operations")
 }
 
 /// Inputs that a rule needs.

@@ -28,7 +28,7 @@ pub struct Variable {
     pub ty: Option<syn::Type>,
 }
 
-/// What is known of the place that a value is for.
+/// Destination of a value, as far as it is written.
 #[derive(Clone, Copy, Default)]
 pub struct Place<'e> {
     /// Name of the variable.
@@ -120,13 +120,19 @@ impl Walk<'_> {
             let help = "a pass reads single pictures: index the list by a constant, as in `levels[0]`";
             refused(self.file, &list.0, what, help)
         })?;
-        match found.values.iter().find(|(_, value)| matches!(value, Value::Unset)) {
-            Some((name, _)) => {
-                let what = format!("`{name}` has no value here");
-                Err(refused(self.file, at, what, "give it one before it is used"))
-            }
-            None => Ok(found),
+        for (name, value) in &found.values {
+            let (what, help) = match value {
+                Value::Unset | Value::Unit => ("has no value here", "give it one before it is used"),
+                Value::Choice(_) => (
+                    "is a variant of an option",
+                    "mention the option in the pass, as in `cfg.quality`",
+                ),
+                Value::Tuple(_) => ("is a tuple", "mention its parts in the pass: `let (a, b) = ..`"),
+                _ => continue,
+            };
+            return Err(refused(self.file, at, format!("`{name}` {what}"), help));
         }
+        Ok(found)
     }
 }
 

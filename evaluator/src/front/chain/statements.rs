@@ -32,10 +32,10 @@ impl Walk<'_> {
                 },
             }
         }
-        Ok(None)
+        Ok(Some(Value::Unit))
     }
 
-    pub(super) fn statement(&mut self, statement: &syn::Stmt) -> Result<(), Box<Diagnostic>> {
+    fn statement(&mut self, statement: &syn::Stmt) -> Result<(), Box<Diagnostic>> {
         match statement {
             syn::Stmt::Local(local) => self.local(local),
             syn::Stmt::Item(_) => Ok(()),
@@ -51,10 +51,13 @@ impl Walk<'_> {
                     let help = "let `if` choose between pictures, and end the function with its result";
                     Err(refused(self.file, expr, "an early exit", help))
                 }
-                expr => {
-                    let place = Place::default();
-                    self.value(expr, place).map(|_| ())
-                }
+                expr => match self.value(expr, Place::default())? {
+                    Some(_) => Ok(()),
+                    None => {
+                        let help = "write it inside the closure of `draw`";
+                        Err(refused(self.file, expr, "a statement that only a pass can run", help))
+                    }
+                },
             },
         }
     }

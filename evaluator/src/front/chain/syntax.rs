@@ -4,6 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::ToTokens;
 
 use super::value::Value;
+use crate::front::unraw;
 
 /// Last segment of the path of a function that is called.
 pub fn call_name(call: &syn::ExprCall) -> Option<String> {
@@ -157,7 +158,7 @@ pub fn unused_name(stem: &str, taken: impl Fn(&str) -> bool) -> String {
 pub fn frame_parameters(kernel: &syn::ItemFn) -> Vec<String> {
     let frames = kernel.sig.inputs.iter().filter_map(super::signature::param_name);
     let frames = frames.filter(|(_, ty)| super::signature::picture_type(ty).is_some_and(|picture| picture.is_frame));
-    frames.map(|(name, _)| name.to_string()).collect()
+    frames.map(|(name, _)| unraw(&name.to_string()).to_owned()).collect()
 }
 
 /// Format that the attribute `#[cfg_attr(false, format(rgba8unorm))]` asks for, as it is written.

@@ -34,6 +34,8 @@ pub enum Value {
     Broken,
     /// The value of a variable before it has one.
     Unset,
+    /// The value of a statement that has run.
+    Unit,
 }
 
 /// An image that a pass can read.
@@ -60,7 +62,7 @@ impl Value {
             Value::Param(_) => "a value that is set at run time",
             Value::Options(_) => "the options",
             Value::Later(_) => "a value that only a pass can compute",
-            Value::Broken | Value::Unset => "nothing",
+            Value::Broken | Value::Unset | Value::Unit => "nothing",
         }
     }
 

@@ -22,14 +22,14 @@ impl<'s> Walk<'s> {
             syn::Expr::Block(block) => self.block(&block.block, place),
             syn::Expr::If(branch) => self.branch(branch, place),
             syn::Expr::Match(choice) => self.choice(choice, place),
-            syn::Expr::ForLoop(each) => self.for_loop(each).map(|()| None),
-            syn::Expr::While(looping) => self.while_loop(looping).map(|()| None),
+            syn::Expr::ForLoop(each) => self.for_loop(each).map(|()| Some(Value::Unit)),
+            syn::Expr::While(looping) => self.while_loop(looping).map(|()| Some(Value::Unit)),
             syn::Expr::Tuple(tuple) => self.tuple(tuple, place),
             syn::Expr::Macro(call) if call.mac.path.is_ident("vec") => self.list(&call.mac, place),
             syn::Expr::Array(array) => self.images(array.elems.iter(), place),
             syn::Expr::Call(call) => match call_name(call) {
                 Some(name) if name == "draw" => self.draw(call, place).map(Some),
-                Some(name) if name == "swap" => self.swap(call).map(|()| None),
+                Some(name) if name == "swap" => self.swap(call).map(|()| Some(Value::Unit)),
                 Some(name) if is_new_list(call) && name == "new" => Ok(Some(Value::Images(Vec::new()))),
                 Some(name) => match self.chain_named(&name) {
                     Some((file, function)) => self.call(file, function, call, place),

@@ -40,7 +40,7 @@ pub fn walk_chain(syntax: &[(u32, syn::File)], name: &str, options: &OptionValue
         chain: Chain {
             name: unraw(name).to_owned(),
             span: token_span(file, function.sig.ident.span()),
-            summary: first_sentence(&doc_text(&function.attrs)),
+            docs: doc_text(&function.attrs),
             inputs: Vec::new(),
             pictures: Vec::new(),
             passes: Vec::new(),
@@ -82,7 +82,8 @@ impl Walk<'_> {
                     .push(*refused(self.file, input, "a parameter without a name", help));
                 continue;
             };
-            let text = name.to_string();
+            let variable = name.to_string();
+            let text = unraw(&variable).to_owned();
             if ["pixel", "resolution"].contains(&text.as_str()) {
                 let help = "each pass has its own: the closure of `draw` takes `pixel`, and `color.size()` is the size of `color`";
                 let what = format!("`{text}` as a parameter of a chain");
@@ -109,7 +110,7 @@ impl Walk<'_> {
                 ParamKind::Uniform => Value::Param(text.clone()),
                 ParamKind::Options => Value::Options(text.clone()),
             };
-            self.declare(&text, value, Some(ty.clone()));
+            self.declare(&variable, value, Some(ty.clone()));
         }
     }
 
@@ -164,8 +165,4 @@ impl Walk<'_> {
             self.errors.push(*refused(self.file, &function.sig.output, what, help));
         }
     }
-}
-
-fn first_sentence(docs: &str) -> String {
-    docs.split_inclusive(". ").next().unwrap_or_default().trim().to_owned()
 }

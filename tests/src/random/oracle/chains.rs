@@ -2,6 +2,7 @@
 
 use super::Rustc;
 use crate::random::Random;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::process::Command;
 use straightline_bench::execute::{Inputs, interpret_chain};
@@ -275,9 +276,12 @@ fn compare_chain(k: usize, text: &str, expected: &[&str]) -> Result<bool, String
         exact(shader()).fuse(Fuse::Auto),
         exact(shader().unroll(Unroll::None)),
     ];
+    let chain = Chain::from_text("chain.rs", text, "chain");
+    let all = chain.compile(&specs[1]).map_err(|errors| errors.render(false))?.fused;
+    let some: BTreeSet<String> = all.into_iter().step_by(2).collect();
+    let named = exact(shader()).fuse(Fuse::Named(some.clone()));
     let mut fused = false;
-    for spec in &specs {
-        let chain = Chain::from_text("chain.rs", text, "chain");
+    for spec in specs.iter().chain((!some.is_empty()).then_some(&named)) {
         let compiled = chain.compile(spec).map_err(|errors| errors.render(false))?;
         fused |= !compiled.fused.is_empty();
         for (size, expected) in SIZES.iter().zip(expected) {
