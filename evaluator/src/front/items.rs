@@ -33,6 +33,8 @@ pub struct Items {
     pub(super) traits: HashMap<String, (u32, syn::ItemTrait)>,
     /// Implementations of traits, with their files.
     pub(super) implementations: Vec<(u32, syn::ItemImpl)>,
+    /// Errors in receivers of trait functions, whether or not the kernel reaches these.
+    pub(super) receivers: Vec<Diagnostic>,
     /// Functions of implementations of traits that are refused, as `Type::name`.
     of_traits: Vec<(String, Vec<Diagnostic>)>,
 }
@@ -523,6 +525,11 @@ impl Items {
         let mut errors = Vec::new();
         for name in &reached {
             errors.extend(self.errors.get(name).into_iter().flatten().cloned());
+        }
+        if whole {
+            let others = self.receivers.drain(..).filter(|error| !errors.contains(error));
+            let others: Vec<Diagnostic> = others.collect();
+            errors.extend(others);
         }
         let mut contradictions = std::mem::take(&mut self.duplicates);
         contradictions.extend(super::recursive::check_recursive_types(&self.library));

@@ -33,6 +33,7 @@ mod pattern;
 mod purposes;
 mod raw;
 mod reach;
+mod receivers;
 mod recursive;
 mod scan;
 pub mod std;

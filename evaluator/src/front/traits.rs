@@ -52,6 +52,11 @@ const OPERATORS: [&str; 32] = [
 /// Traits of Rust that the generator gives a meaning of its own, so that none can be given by hand.
 const OWN: [&str; 4] = ["Drop", "Deref", "DerefMut", "Iterator"];
 
+/// Returns whether a trait is one of Rust's whose functions nothing calls by their names.
+pub fn is_operator(name: &str) -> bool {
+    OPERATORS.contains(&name)
+}
+
 /// Returns whether a trait is one of Rust's that may bound the functions of kernels.
 pub fn is_of_rust(name: &str) -> bool {
     OPERATORS.contains(&name)
@@ -224,6 +229,15 @@ impl Items {
             all.extend(taken.map(|inner| (*at, inner)));
             errors.extend(self.not_members(file, &trait_name, declared, &item.items));
         }
+        // An implementation with a wrong receiver is reached as a right one is.
+        let is_reached = errors.is_empty();
+        let of_trait = declared.as_ref().map(|(_, declared)| declared);
+        let mut unlike = self.unlike_receivers(file, &trait_name, of_trait, &item.items);
+        if let Some((at, declared)) = &declared {
+            unlike.extend(self.unsized_receivers(*at, declared, &given));
+        }
+        self.receivers.extend(unlike.iter().cloned());
+        errors.extend(unlike);
         let named = Named {
             trait_name: &trait_name,
             args: &args,
@@ -232,7 +246,7 @@ impl Items {
         for (file, mut inner) in all {
             self.add_impl_item(file, &mut inner, &owner, &named, item, &errors);
         }
-        if errors.is_empty() {
+        if is_reached {
             self.reached_by(&of, &named, &owner);
         }
     }
