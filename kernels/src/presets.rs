@@ -23,22 +23,21 @@ impl Preset {
 /// Presets of a kernel without any.
 pub(crate) const NO_PRESETS: &[Preset] = &[];
 
-/// Comparison by planes, and a search for surfaces that no tap shows.
+/// Comparison by planes, and a search for surfaces that no tap shows. A pixel of one surface and even shading takes little of its
+/// neighbours.
 const EDGES: Options = &[
     ("metric", "planes-normals"),
     ("difference", "relative"),
     ("depth-scale", "10"),
     ("search", "five"),
     ("search-threshold", "0.004"),
-];
-
-/// Shading where `sraa_place` says; a pixel of one plane keeps its colour.
-const PLACED: Options = &[
-    ("unseen", "0.003"),
-    ("shading", "placed"),
     ("mask", "branch"),
     ("variation", "within"),
+    ("mask-step", "0.12"),
 ];
+
+/// Shading where `sraa_place` says.
+const PLACED: Options = &[("unseen", "0.003"), ("shading", "placed")];
 
 /// Presets of the SRAA kernels.
 pub(crate) const SRAA_PRESETS: &[Preset] = &[
@@ -60,12 +59,15 @@ pub(crate) const SRAA_PRESETS: &[Preset] = &[
     Preset {
         name: "edges",
         summary: "planes, and a search for surfaces that no tap shows: depth and normals are all it needs",
-        groups: &[EDGES],
+        groups: &[
+            EDGES,
+            &[("mask-threshold", "0.001"), ("sharpness", "1.25"), ("tau", "400")],
+        ],
     },
     Preset {
         name: "full",
-        summary: "the same, shaded where `sraa_place` says; pixels of one plane and even shading keep their colour",
-        groups: &[EDGES, PLACED, &[("mask-threshold", "0.001"), ("mask-step", "0.03")]],
+        summary: "the same, shaded where `sraa_place` says: surfaces smaller than a pixel are shaded too",
+        groups: &[EDGES, PLACED, &[("mask-threshold", "0.001"), ("sharpness", "1.1")]],
     },
     Preset {
         name: "guided",

@@ -13,17 +13,19 @@ pub(super) fn masked<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &
         Mask::None => filtered::<TAPS, SIDE>(cfg, inputs),
         Mask::Select => {
             let own = own_color(cfg, inputs);
-            if is_even::<TAPS, SIDE>(cfg, inputs) && is_smooth(cfg, inputs) && is_kept(cfg, own) {
-                own
+            let around = neighbours(cfg, inputs, own);
+            if is_even::<TAPS, SIDE>(cfg, inputs) && around.step <= cfg.mask_step && is_kept(cfg, own) {
+                around.color
             } else {
                 filtered::<TAPS, SIDE>(cfg, inputs)
             }
         }
         Mask::Branch => {
             let own = own_color(cfg, inputs);
+            let around = neighbours(cfg, inputs, own);
             #[cfg_attr(false, branch)]
-            if is_even::<TAPS, SIDE>(cfg, inputs) && is_smooth(cfg, inputs) && is_kept(cfg, own) {
-                own
+            if is_even::<TAPS, SIDE>(cfg, inputs) && around.step <= cfg.mask_step && is_kept(cfg, own) {
+                around.color
             } else {
                 filtered::<TAPS, SIDE>(cfg, inputs)
             }
@@ -79,9 +81,27 @@ fn variation_one_by_one(cfg: &Sraa, inputs: &Inputs) -> f32 {
     variation_within(cfg, inputs)
 }
 
-/// Returns whether the pixel's colour differs by at most `mask_step` from those of the four neighbours on its own plane.
-fn is_smooth(cfg: &Sraa, inputs: &Inputs) -> bool {
+/// Multiple of `mask_threshold` up to which a neighbour shows the same surface. A surface that curves evenly differs by the square
+/// of the distance: where it stays within the threshold at a sample 3/8 of a pixel away, a neighbour differs by up to 64/9 of it.
+const CURVED: f32 = 8.0;
+
+/// Weight of each neighbour in a kept pixel: the second moment of their mean is then that of the pixel's own area.
+const AREA: f32 = 1.0 / 24.0;
+
+/// Shading of a pixel and of its four neighbours on its own surface.
+struct Around {
+    /// Largest step between the pixel's colour and that of a neighbour.
+    step: f32,
+    /// Mean over the pixel's own area.
+    color: Vec4,
+}
+
+/// Compares a pixel's colour with its neighbours, and blends it with theirs. With `mask_step` of 1, colours are not compared, and
+/// the pixel's remains as it is.
+fn neighbours(cfg: &Sraa, inputs: &Inputs, mean: Vec4) -> Around {
     let mut largest = 0.0f32;
+    let mut rest = 1.0;
+    let mut others = Vec4::ZERO;
     if cfg.mask_step < 1.0 {
         let several = cfg.shading_samples();
         let centre = own_tap(cfg, inputs, 4 * several, 3);
@@ -90,14 +110,26 @@ fn is_smooth(cfg: &Sraa, inputs: &Inputs) -> bool {
         let own = color(cfg, inputs, 4 * several, 3);
         for k in 0..4 {
             let tap = (2 * k + 1) * several;
-            let away = step(own, color(cfg, inputs, tap, 3));
+            let there = color(cfg, inputs, tap, 3);
             let at = own_tap(cfg, inputs, tap, 3);
-            if away > largest && difference(cfg, inputs, place, &seen, at) <= cfg.mask_threshold {
-                largest = away;
+            if difference(cfg, inputs, place, &seen, at) <= CURVED * cfg.mask_threshold {
+                largest = largest.max(step(own, there));
+                if is_kept(cfg, there) {
+                    rest -= AREA;
+                    others += AREA * there;
+                }
             }
         }
+        Around {
+            step: largest,
+            color: rest * mean + others,
+        }
+    } else {
+        Around {
+            step: largest,
+            color: mean,
+        }
     }
-    largest <= cfg.mask_step
 }
 
 /// Largest difference of two colours in a channel, as a display shows them.

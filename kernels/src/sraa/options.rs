@@ -87,8 +87,9 @@ options! {
         pub variation: Variation = Variation::Around,
         /// With mask: largest difference that does not count as variation.
         pub mask_threshold: f32 [0.0..=16.0] = 0.002,
-        /// With mask: largest step between the pixel's colour and that of a neighbour on its plane that does not count as
-        /// variation, in displayed brightness from 0 to 1. With 1, colours are not compared.
+        /// With mask: largest step between the pixel's colour and that of a neighbour on its surface that does not count as
+        /// variation, in displayed brightness from 0 to 1. A kept pixel then takes a 24th of each of these neighbours: the blur
+        /// of its own area. With 1, colours are not compared, and a kept pixel has its own.
         pub mask_step: f32 [0.0..=1.0] = 1.0,
         /// Effect of a colour that is infinite or NaN.
         pub non_finite: NonFinite = NonFinite::Skip,

@@ -152,10 +152,13 @@ impl<'a> Definition<'a> {
             let threshold = self.params.mask_threshold;
             let is_kept = self.params.non_finite == NonFinite::Spread || is_finite(&own);
             sure &= (largest - threshold).abs() > 1.0e-3 * threshold.max(1.0e-3) || !is_kept || largest == threshold;
-            let (step, is_decided) = self.step(pixel);
-            sure &= is_decided || largest > threshold;
-            if largest <= threshold && is_kept && step <= self.params.mask_step {
-                return Resolved { color: own, sure };
+            let shading = self.shading(pixel, own);
+            sure &= shading.is_decided || largest > threshold;
+            if largest <= threshold && is_kept && shading.step <= self.params.mask_step {
+                return Resolved {
+                    color: shading.color,
+                    sure,
+                };
             }
         }
         Resolved { color, sure }

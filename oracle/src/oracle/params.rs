@@ -330,7 +330,7 @@ pub struct SraaParams {
     pub variation: Variation,
     /// The largest difference that is no variation.
     pub mask_threshold: f64,
-    /// The largest step of a colour from a neighbour on the pixel's plane that is no variation, as a display shows it.
+    /// The largest step of a colour from a neighbour on the pixel's surface that is no variation, as a display shows it.
     pub mask_step: f64,
     /// Treatment of a colour that is not finite.
     pub non_finite: NonFinite,
