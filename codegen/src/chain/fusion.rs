@@ -45,6 +45,11 @@ pub fn decide(
     if let Fuse::Named(names) = fuse {
         check_names(chain, names.iter().map(String::as_str))?;
     }
+    let mut costs: Vec<usize> = chain
+        .passes
+        .iter()
+        .map(|pass| operations(&starts[&pass.entry]))
+        .collect();
     for (index, picture) in chain.pictures.iter().enumerate() {
         let wanted = match fuse {
             Fuse::None => false,
@@ -56,14 +61,18 @@ pub fn decide(
         }
         let reason = match obstacle(chain, starts, sized, index) {
             Err(reason) => reason,
-            Ok(reads) if *fuse == Fuse::Auto && !pays(&starts[&chain.passes[index].entry], &reads) => {
-                let operations = operations(&starts[&chain.passes[index].entry]);
-                let total: usize = reads.iter().sum();
-                format!("{total} reads of it cost less than {operations} operations each")
-            }
-            Ok(_) => {
-                decision.fused[index] = true;
-                continue;
+            Ok(reads) => {
+                let each = costs[index];
+                let total: usize = reads.iter().map(|(_, count)| count).sum();
+                if *fuse != Fuse::Auto || pays(each, total) {
+                    decision.fused[index] = true;
+                    // A reader computes the picture in place of reading it.
+                    for (reader, count) in reads {
+                        costs[reader] = (costs[reader] + count * each).saturating_sub(count * TEXEL);
+                    }
+                    continue;
+                }
+                format!("{total} reads of it cost less than {each} operations each")
             }
         };
         if let Fuse::Named(_) = fuse {
@@ -95,13 +104,13 @@ fn check_names<'n>(chain: &Chain, names: impl Iterator<Item = &'n str>) -> Resul
     Ok(())
 }
 
-/// Numbers of coordinates at which each later pass reads a picture, or the reason why it has to be stored.
+/// Passes that read a picture, each with its number of coordinates there, or the reason why the picture has to be stored.
 fn obstacle(
     chain: &Chain,
     starts: &BTreeMap<String, Start>,
     sized: &[Texture],
     index: usize,
-) -> Result<Vec<usize>, String> {
+) -> Result<Vec<(usize, usize)>, String> {
     if chain.results.contains(&index) {
         return Err("it is a result of the chain".to_owned());
     }
@@ -113,23 +122,22 @@ fn obstacle(
         return Err(Unfused::Size.to_string());
     }
     let mut reads = Vec::new();
-    for pass in &chain.passes {
+    for (reader, pass) in chain.passes.iter().enumerate() {
         let graph = &starts[&pass.entry].graph;
         for (name, _) in pass
             .reads
             .iter()
             .filter(|(_, source)| *source == Source::Picture(index))
         {
-            reads.push(passes::count_reads(graph, name).ok_or_else(|| Unfused::Sampled.to_string())?);
+            let count = passes::count_reads(graph, name).ok_or_else(|| Unfused::Sampled.to_string())?;
+            reads.push((reader, count));
         }
     }
     Ok(reads)
 }
 
-/// Returns whether computing a picture at every read costs no more than storing it once and reading it.
-fn pays(producer: &Start, reads: &[usize]) -> bool {
-    let each = operations(producer);
-    let total: usize = reads.iter().sum();
+/// Returns whether computing a picture at each of `total` reads costs no more than storing it once and reading it.
+fn pays(each: usize, total: usize) -> bool {
     total * each <= each + TEXEL + total * TEXEL
 }
 

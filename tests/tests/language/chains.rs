@@ -146,6 +146,29 @@ fn pictures_that_are_read_at_single_places_are_fused() {
     assert!(kept.1.contains("reads of it cost less"), "{}", kept.1);
 }
 
+/// A pass that computes one picture in place of reading it costs what both do.
+#[test]
+fn what_is_fused_counts_for_the_pass_that_computes_it() {
+    let text = "
+        pub fn dear(color: &Texture<Vec4>) -> Texture<Vec4> {
+            let dear: Texture<Vec4> = draw(color.size(), |pixel| {
+                let mut sum = color.load(pixel);
+                for k in 1..=20 {
+                    sum = sum * sum + k as f32;
+                }
+                sum
+            });
+            let cheap: Texture<Vec4> = draw(color.size(), |pixel| 2.0 * dear.load(pixel));
+            draw(color.size(), |pixel| cheap.load(pixel) + cheap.load(pixel + ivec2(1, 0)))
+        }";
+    let auto = |text: &str| {
+        let compiled = Chain::from_text("dear.rs", text, "dear").compile(&exact().fuse(Fuse::Auto));
+        compiled.unwrap_or_else(|errors| panic!("{}", errors.render(false))).fused
+    };
+    assert_eq!(auto(text), ["dear"]);
+    assert_eq!(auto(&text.replace("1..=20", "1..=1")), ["dear", "cheap"]);
+}
+
 #[test]
 fn bloom_computes_the_bits_of_rust_with_every_option() {
     for levels in 1..=4 {
