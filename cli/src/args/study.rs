@@ -113,6 +113,10 @@ pub struct ChainsArgs {
     /// Picture for a texture of each chain, NAME=FILE, in place of the test card; may be given several times
     #[arg(long, value_name = "NAME=FILE", value_parser = super::pair)]
     pub input: Vec<(String, String)>,
+    /// Value of a uniform of the chains: NAME=NUMBER, or NAME=X,Y,Z for a vector; by default 1 if the chain states none; may
+    /// be given several times
+    #[arg(long, value_name = "NAME=NUMBERS", value_parser = super::pair)]
+    pub uniform: Vec<(String, String)>,
 }
 
 #[derive(Clone, Debug, Default, Args)]

@@ -1,5 +1,6 @@
 //! `study chains`: chains of passes, stored and fused.
 
+use super::uniforms::Asked;
 use super::{ProgressBars, run_circumstances};
 use crate::args::{ChainsArgs, CommonArgs};
 use crate::failure::Failure;
@@ -25,6 +26,7 @@ pub fn measure_chains(common: &CommonArgs, args: &ChainsArgs, progress: &mut Pro
         let read = picture::read_linear(Path::new(path)).map_err(Failure::from_error)?;
         given = given.with_image(name, read);
     }
+    let mut asked = Asked::new(&args.uniform);
     let subjects = args.chains.iter().map(|name| {
         let chain = Chain::from_argument(name)?.ok_or_else(|| {
             Failure::Usage(format!(
@@ -35,13 +37,16 @@ pub fn measure_chains(common: &CommonArgs, args: &ChainsArgs, progress: &mut Pro
             .source
             .iter()
             .try_fold(chain, |chain, path| chain.with_file(path))?;
-        Ok(ChainSubject {
-            chain,
-            shader: ShaderSpec::new(),
-            given: given.clone(),
-        })
+        let shader = ShaderSpec::new();
+        let mut given = given.clone();
+        if !args.uniform.is_empty() {
+            let compiled = chain.compile(&shader.clone().into())?;
+            given.uniforms = asked.values_of(&compiled.inputs_graph().uniforms)?;
+        }
+        Ok(ChainSubject { chain, shader, given })
     });
     let subjects = subjects.collect::<Result<Vec<_>, Failure>>()?;
+    asked.check_all_found("chain")?;
     let gpu = Gpu::require(&common.adapter)?;
     let setup = ChainSetup {
         size: common.picture_size(),

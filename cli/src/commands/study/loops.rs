@@ -1,14 +1,14 @@
 //! `study loops`: unrolled against looped forms.
 
+use super::uniforms::Asked;
 use super::{ProgressBars, run_circumstances};
 use crate::args::{CommonArgs, LoopsArgs};
-use crate::commands::run::values;
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
-use straightline_codegen::{Kernel, Settings, files, shorten};
+use straightline_codegen::{Kernel, Settings, files};
 use straightline_scene::picture;
 use straightline_study::loops::{LoopsError, Setup, Studied, Subject, list_subjects, study_loops};
 use straightline_study::progress::Progress;
@@ -70,27 +70,15 @@ pub fn choose_subjects(common: &CommonArgs, from: &[String], by_hand: &[String])
 
 /// Sets the requested uniforms of each kernel. Fails if a uniform belongs to none of them.
 fn set_uniforms(subjects: &mut [Subject], asked: &[(String, String)]) -> Result<(), Failure> {
-    let mut found = vec![false; asked.len()];
-    for subject in subjects.iter_mut() {
-        if asked.is_empty() {
-            break;
-        }
+    if asked.is_empty() {
+        return Ok(());
+    }
+    let mut asked = Asked::new(asked);
+    for subject in subjects {
         let compiled = subject.kernel.compile(&Settings::default())?;
-        for ((name, text), found) in asked.iter().zip(&mut found) {
-            if let Some(uniform) = compiled.graph.uniforms.iter().find(|uniform| uniform.name == *name) {
-                let lanes = values::parse_uniform(name, uniform.ty, text)?;
-                subject.uniforms.push((name.clone(), lanes));
-                *found = true;
-            }
-        }
+        subject.uniforms.extend(asked.values_of(&compiled.graph.uniforms)?);
     }
-    match found.iter().position(|found| !found) {
-        Some(k) => Err(Failure::Usage(format!(
-            "no kernel of --from has a uniform `{}`",
-            shorten(&asked[k].0)
-        ))),
-        None => Ok(()),
-    }
+    asked.check_all_found("kernel of --from")
 }
 
 /// Converts errors, keeping the source location of kernel errors.

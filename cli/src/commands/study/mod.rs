@@ -13,6 +13,7 @@ mod motion;
 mod precision;
 mod progress;
 mod sweep;
+mod uniforms;
 
 use super::{command_line, tune};
 use crate::args::{CommonArgs, Study, StudyArgs, TuneArgs};
