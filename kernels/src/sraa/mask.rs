@@ -22,7 +22,7 @@ pub(super) fn masked<const TAPS: usize, const SIDE: usize>(cfg: &Sraa, inputs: &
         }
         Mask::Branch => {
             let own = own_color(cfg, inputs);
-            let around = neighbours(cfg, inputs, own);
+            let around = neighbours_one_by_one(cfg, inputs, own);
             #[cfg_attr(false, branch)]
             if is_even::<TAPS, SIDE>(cfg, inputs) && around.step <= cfg.mask_step && is_kept(cfg, own) {
                 around.color
@@ -130,6 +130,12 @@ fn neighbours(cfg: &Sraa, inputs: &Inputs, mean: Vec4) -> Around {
             color: mean,
         }
     }
+}
+
+/// [`neighbours`] in a loop: unrolled, their colours and surfaces would stay in registers for the filter after the branch.
+#[cfg_attr(false, unroll(none))]
+fn neighbours_one_by_one(cfg: &Sraa, inputs: &Inputs, mean: Vec4) -> Around {
+    neighbours(cfg, inputs, mean)
 }
 
 /// Largest difference of two colours in a channel, as a display shows them.
