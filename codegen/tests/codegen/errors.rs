@@ -73,12 +73,11 @@ fn message(path: &Path) -> Result<String, String> {
             };
         }
     }
-    match Kernel::from_text(&name, &text, &function).compile(&settings) {
+    let kernel = Kernel::from_text(&name, &text, &function);
+    let emitted = kernel.compile(&settings).and_then(|compiled| compiled.emit(&options));
+    match emitted.map(|_| ()).and_then(|()| kernel.check_others()) {
         Err(errors) => Ok(errors.render(false)),
-        Ok(compiled) => match compiled.emit(&options) {
-            Err(errors) => Ok(errors.render(false)),
-            Ok(_) => Err("it is a kernel".to_owned()),
-        },
+        Ok(()) => Err("it is a kernel".to_owned()),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::expr::Lower;
 use super::tree::{Closure, ExprKind, Type};
+use std::collections::HashMap;
 use std::sync::Arc;
 use syn::spanned::Spanned;
 
@@ -39,7 +40,13 @@ impl Lower {
 
     /// Notes which type parameters are called, by their bounds.
     pub fn called_parameters(&mut self, generics: &syn::Generics) {
-        let mut found = Vec::new();
+        let found = self.functions_of(generics);
+        self.functions.extend(found);
+    }
+
+    /// The types of functions that type parameters stand for, by their bounds.
+    pub fn functions_of(&mut self, generics: &syn::Generics) -> HashMap<String, Type> {
+        let mut found = HashMap::new();
         for param in &generics.params {
             if let syn::GenericParam::Type(t) = param {
                 found.extend(self.fn_bound_type(&t.bounds).map(|ty| (t.ident.to_string(), ty)));
@@ -53,7 +60,7 @@ impl Lower {
                 found.extend(self.fn_bound_type(&t.bounds).map(|ty| (name.to_string(), ty)));
             }
         }
-        self.functions.extend(found);
+        found
     }
 
     /// The type of functions among bounds: `Fn(A) -> B`, `FnMut`, `FnOnce`.

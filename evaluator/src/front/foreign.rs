@@ -22,6 +22,11 @@ pub struct Import {
 }
 
 impl Import {
+    /// Returns whether the import brings in this name.
+    pub fn brings(&self, name: &str) -> bool {
+        self.name.1 == name
+    }
+
     /// The name that the import brings in, unless the kernel's files define it.
     pub fn unknown_name(&self, library: &Library) -> Option<&str> {
         let here = self.name.1.as_str();

@@ -33,8 +33,8 @@ pub struct Items {
     pub(super) traits: HashMap<String, (u32, syn::ItemTrait)>,
     /// Implementations of traits, with their files.
     pub(super) implementations: Vec<(u32, syn::ItemImpl)>,
-    /// Errors in receivers of trait functions, whether or not the kernel reaches these.
-    pub(super) receivers: Vec<Diagnostic>,
+    /// Errors of implementations of traits that `check` reports whether or not the kernel reaches them.
+    pub(super) implementation_errors: Vec<Diagnostic>,
     /// Functions of implementations of traits that are refused, as `Type::name`.
     of_traits: Vec<(String, Vec<Diagnostic>)>,
 }
@@ -211,6 +211,11 @@ impl Items {
         self.imports.push(import);
     }
 
+    /// Returns whether a `use` brings in a name, or may do so.
+    pub(super) fn may_import(&self, name: &str) -> bool {
+        self.unknown_names || self.imports.iter().any(|import| import.brings(name))
+    }
+
     /// Notes errors that concern every kernel of the files.
     pub(super) fn refuse_all(&mut self, check: Check) {
         self.duplicates.extend(check.into_errors());
@@ -380,6 +385,7 @@ impl Items {
         let mut lower = self.lower_of(file);
         let definition = Struct {
             generics: lower.lower_generics(&item.generics),
+            functions: lower.functions_of(&item.generics),
             fields: lower_fields(&mut lower, &item.fields),
             derives: derived_traits(&item.attrs),
         };
@@ -399,6 +405,7 @@ impl Items {
         let variants = variants.collect();
         let definition = Enum {
             generics: lower.lower_generics(&item.generics),
+            functions: lower.functions_of(&item.generics),
             variants,
             derives: derived_traits(&item.attrs),
         };
@@ -527,7 +534,7 @@ impl Items {
             errors.extend(self.errors.get(name).into_iter().flatten().cloned());
         }
         if whole {
-            let others = self.receivers.drain(..).filter(|error| !errors.contains(error));
+            let others = self.implementation_errors.drain(..).filter(|error| !errors.contains(error));
             let others: Vec<Diagnostic> = others.collect();
             errors.extend(others);
         }

@@ -4,6 +4,7 @@ use super::check::Check;
 use super::items::{Items, doc_text};
 use super::tree::{Expr, ExprKind, OptionField, Struct};
 use crate::diagnostic::{Code, Diagnostic};
+use std::collections::HashMap;
 use syn::parse::{Parse, ParseStream};
 
 /// Contents of `options!`.
@@ -120,6 +121,7 @@ impl Items {
                     .collect();
                 let plain = Struct {
                     generics: Vec::new(),
+                    functions: HashMap::new(),
                     fields: plain,
                     derives: Vec::new(),
                 };

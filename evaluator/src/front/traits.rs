@@ -52,6 +52,23 @@ const OPERATORS: [&str; 32] = [
 /// Traits of Rust that the generator gives a meaning of its own, so that none can be given by hand.
 const OWN: [&str; 4] = ["Drop", "Deref", "DerefMut", "Iterator"];
 
+/// Further traits of Rust's prelude, which kernels have no use for.
+const OF_STD: [&str; 13] = [
+    "AsMut",
+    "AsRef",
+    "DoubleEndedIterator",
+    "ExactSizeIterator",
+    "Extend",
+    "FromIterator",
+    "Send",
+    "Sync",
+    "ToOwned",
+    "ToString",
+    "TryFrom",
+    "TryInto",
+    "Unpin",
+];
+
 /// Returns whether a trait is one of Rust's whose functions nothing calls by their names.
 pub fn is_operator(name: &str) -> bool {
     OPERATORS.contains(&name)
@@ -201,6 +218,13 @@ impl Items {
             }
         }
         let declared = self.traits.get(&trait_name).cloned();
+        if declared.is_none() && self.is_unknown(&path) {
+            let what = format!("cannot find trait `{trait_name}`");
+            let error = Diagnostic::error_at(Code::UnknownType, lower.token_span(path.span()), what)
+                .label("not found in the kernel's files")
+                .help("define it in one of the kernel's files, or import it");
+            self.implementation_errors.push(error);
+        }
         if let Some((_, declared)) = &declared {
             let types = declared.generics.params.iter().filter_map(|param| match param {
                 syn::GenericParam::Type(t) => Some(t.ident.to_string()),
@@ -236,7 +260,7 @@ impl Items {
         if let Some((at, declared)) = &declared {
             unlike.extend(self.unsized_receivers(*at, declared, &given));
         }
-        self.receivers.extend(unlike.iter().cloned());
+        self.implementation_errors.extend(unlike.iter().cloned());
         errors.extend(unlike);
         let named = Named {
             trait_name: &trait_name,
@@ -381,6 +405,15 @@ impl Items {
             || ty.clone(),
             |(generic, _)| Type::Name(generic.name().to_owned(), Vec::new()),
         )
+    }
+
+    /// Returns whether a trait is neither in the files nor one that every Rust file has, and nothing imports it.
+    fn is_unknown(&self, path: &syn::Path) -> bool {
+        let (Some(only), 1) = (path.segments.first(), path.segments.len()) else {
+            return false;
+        };
+        let name = only.ident.to_string();
+        !is_of_rust(&name) && !OF_STD.contains(&name.as_str()) && !self.may_import(&name)
     }
 
     fn refuse_functions(&mut self, item: &syn::ItemImpl, of: &str, errors: &[Diagnostic]) {

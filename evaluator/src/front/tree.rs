@@ -476,6 +476,8 @@ pub type Fields = Vec<(Name, Type, Span)>;
 pub struct Struct {
     /// Generic parameters in order.
     pub generics: Vec<Generic>,
+    /// Types of functions by the type parameters that stand for them: `Fn(f32) -> f32` of `F: Fn(f32) -> f32`.
+    pub functions: HashMap<String, Type>,
     /// Fields in order.
     pub fields: Fields,
     /// The traits that it derives.
@@ -487,6 +489,8 @@ pub struct Struct {
 pub struct Enum {
     /// Generic parameters in order.
     pub generics: Vec<Generic>,
+    /// Types of functions by the type parameters that stand for them.
+    pub functions: HashMap<String, Type>,
     /// Variants in order.
     pub variants: Vec<EnumVariant>,
     /// The traits that it derives.

@@ -1,9 +1,9 @@
-//! Checks that implementations match the declarations of their traits.
+//! Checks that implementations match the declarations of their traits and structures.
 
 use super::types::Ty;
 use super::{Checker, Known, infer_item};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Const, Function, Library, Type};
+use crate::front::tree::{Const, Function, Generic, Library, Type};
 use std::collections::{BTreeSet, HashMap};
 
 /// Notes where functions and constants are unlike what their traits say of them. A trait of which the kernel reaches something is
@@ -93,6 +93,48 @@ impl<'l> Checker<'l> {
         }
     }
 
+    /// Checks the parameters of an `impl` against those of its structure or enum.
+    pub fn check_owner(&mut self, function: &'l Function) {
+        let Some(Type::Name(name, args)) = &function.of else { return };
+        let library = self.library;
+        let of_struct = library.structs.get(name).map(|of| (&of.generics, &of.functions));
+        let of_enum = || library.enums.get(name).map(|of| (&of.generics, &of.functions));
+        let Some((generics, functions)) = of_struct.or_else(of_enum) else {
+            return;
+        };
+        let constant = |arg: &Type| {
+            function.generics.iter().find_map(|generic| match generic {
+                Generic::Const(own, ty) if arg.is_parameter(own) => Some(ty),
+                _ => None,
+            })
+        };
+        let mut unlike = None;
+        for (generic, arg) in generics.iter().zip(args) {
+            if let (Generic::Const(_, declared), Some(given)) = (generic, constant(arg)) {
+                let differs = self.type_difference(declared, given, &HashMap::new(), function.span);
+                unlike = unlike.or(differs);
+            }
+        }
+        let args = args
+            .iter()
+            .map(|arg| self.quietly(|c| c.substitute_type(arg, &HashMap::new(), function.span)));
+        let args: Vec<Ty> = args.collect();
+        if let Some((found, wanted)) = self.call_arguments(generics, functions, &args) {
+            unlike = unlike.or_else(|| Some((self.table.resolve_deep(&wanted), self.table.resolve_deep(&found))));
+        }
+        if let Some((wanted, found)) = unlike {
+            self.errors.push(
+                Diagnostic::error_at(
+                    Code::MismatchedTypes,
+                    function.span,
+                    format!("the parameters of this `impl` are not those of `{name}`: one is `{found}`"),
+                )
+                .label(format!("expected `{wanted}`"))
+                .help("declare the parameters as the structure does"),
+            );
+        }
+    }
+
     fn constant_as_declared(&mut self, of: &str, declared: &'l Type, given: &'l Const) {
         let span = given.value.span;
         let Some((wanted, found)) = self.type_difference(declared, &given.ty, &HashMap::new(), span) else {
@@ -112,7 +154,7 @@ impl<'l> Checker<'l> {
 
     /// The type that a trait declares and the one that is given, where they differ. Types that are not known here, such as those
     /// that a trait has of its own, do for any.
-    fn type_difference(
+    pub fn type_difference(
         &mut self,
         declared: &'l Type,
         given: &'l Type,
@@ -126,7 +168,7 @@ impl<'l> Checker<'l> {
     }
 
     /// Leaves out what is wrong with a type: it may belong to a function that the kernel does not reach.
-    fn quietly<T>(&mut self, look: impl FnOnce(&mut Self) -> T) -> T {
+    pub fn quietly<T>(&mut self, look: impl FnOnce(&mut Self) -> T) -> T {
         let known = self.errors.len();
         let found = look(self);
         self.errors.truncate(known);

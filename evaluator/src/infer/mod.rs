@@ -121,17 +121,19 @@ fn infer_items(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Ve
     }
     declared::check_declared(library, reached, &mut errors);
     let mut known = Known::default();
-    let of_structures = library.structs.values().map(|s| (&s.generics, &s.fields));
+    let of_structures = library.structs.iter().map(|(name, s)| (name, &s.generics, &s.fields));
     let variants = library
         .enums
-        .values()
-        .flat_map(|e| e.variants.iter().map(move |v| (&e.generics, &v.fields)));
-    for (generics, fields) in of_structures.chain(variants) {
+        .iter()
+        .flat_map(|(name, e)| e.variants.iter().map(move |v| (name, &e.generics, &v.fields)));
+    for (name, generics, fields) in of_structures.chain(variants) {
         for (_, ty, span) in fields {
             // A type that the kernel does not reach may hold anything.
-            infer_item(library, &mut known, &mut Vec::new(), |checker| {
+            let mut unreached = Vec::new();
+            let errors = if reached.contains(name) { &mut errors } else { &mut unreached };
+            infer_item(library, &mut known, errors, |checker| {
                 checker.declare_generics(generics, *span);
-                checker.convert_type(ty, *span);
+                checker.check_array_lengths(ty);
             });
         }
     }
@@ -259,6 +261,7 @@ impl<'l> Checker<'l> {
     fn check_function(&mut self, function: &'l Function) {
         self.bounds = Some(&function.bounds);
         self.declare_generics(&function.generics, function.span);
+        self.check_owner(function);
         for name in function.bounds.keys().filter(|name| name.starts_with("dyn ")) {
             self.check_trait_object(name, function.span);
         }

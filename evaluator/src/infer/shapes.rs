@@ -14,13 +14,29 @@ impl<'l> Checker<'l> {
         generics.iter().map(|_| self.table.fresh(Kind::Any)).collect()
     }
 
+    /// Gives the arguments that stand for functions the types of these. Returns the first of another type, with the function's type.
+    pub fn call_arguments(
+        &mut self,
+        generics: &[Generic],
+        functions: &'l HashMap<String, Type>,
+        args: &[Ty],
+    ) -> Option<(Ty, Ty)> {
+        let given = named_arguments(generics, args);
+        let mut unlike = None;
+        for (generic, arg) in generics.iter().zip(args) {
+            if let Some(ty) = functions.get(generic.name()) {
+                let wanted = self.quietly(|c| c.substitute_type(ty, &given, Span::default()));
+                if !self.table.unify(arg, &wanted) {
+                    unlike = unlike.or(Some((arg.clone(), wanted)));
+                }
+            }
+        }
+        unlike
+    }
+
     /// Fields with their types, of a type with these arguments.
     pub fn fields_with(&mut self, generics: &[Generic], args: &[Ty], fields: &'l Fields) -> Vec<Ty> {
-        let named = generics.iter().zip(args).filter_map(|(generic, ty)| match generic {
-            Generic::Type(name) => Some((name.clone(), ty.clone())),
-            Generic::Const(..) => None,
-        });
-        let given: HashMap<String, Ty> = named.collect();
+        let given = named_arguments(generics, args);
         let errors = self.errors.len();
         let types = fields.iter().map(|(_, ty, at)| self.substitute_type(ty, &given, *at));
         let types: Vec<Ty> = types.collect();
@@ -59,7 +75,9 @@ impl<'l> Checker<'l> {
     pub fn made_by(&mut self, path: &'l [String]) -> Option<(Ty, &'l Fields, Vec<Ty>)> {
         let library = self.library;
         if let Some((name, k, _)) = library.find_variant(path) {
-            let args = self.fresh_arguments(&library.enums[name].generics);
+            let definition = &library.enums[name];
+            let args = self.fresh_arguments(&definition.generics);
+            self.call_arguments(&definition.generics, &definition.functions, &args);
             let ty = Ty::Enum(name.to_owned(), args);
             let (fields, types) = self.fields_of(&ty, Some(k))?;
             return Some((ty, fields, types));
@@ -67,6 +85,7 @@ impl<'l> Checker<'l> {
         let name = path.last()?;
         let definition = library.structs.get(name)?;
         let args = self.fresh_arguments(&definition.generics);
+        self.call_arguments(&definition.generics, &definition.functions, &args);
         let ty = Ty::Struct(name.clone(), args);
         let (fields, types) = self.fields_of(&ty, None)?;
         Some((ty, fields, types))
@@ -198,4 +217,13 @@ impl<'l> Checker<'l> {
             .help("take the value apart with `let ... else`, or give what is to be there instead with `unwrap_or(..)`"),
         );
     }
+}
+
+/// Type arguments by the names of their parameters.
+fn named_arguments(generics: &[Generic], args: &[Ty]) -> HashMap<String, Ty> {
+    let named = generics.iter().zip(args).filter_map(|(generic, ty)| match generic {
+        Generic::Type(name) => Some((name.clone(), ty.clone())),
+        Generic::Const(..) => None,
+    });
+    named.collect()
 }

@@ -17,7 +17,7 @@ impl<'l> Checker<'l> {
     }
 
     /// Looks at the lengths of arrays in a type, which are expressions of the item that states it.
-    fn check_array_lengths(&mut self, ty: &'l Type) {
+    pub fn check_array_lengths(&mut self, ty: &'l Type) {
         match ty {
             Type::Ref(_, inner) => self.check_array_lengths(inner),
             Type::Name(_, args) | Type::Tuple(args) => args.iter().for_each(|arg| self.check_array_lengths(arg)),
@@ -30,7 +30,13 @@ impl<'l> Checker<'l> {
             Type::Array(element, len) => {
                 self.check_array_lengths(element);
                 if let Some(len) = len {
+                    let known = self.errors.len();
                     self.check_expr(len, &Ty::USIZE);
+                    if let (Some(error), ExprKind::Path(path)) = (self.errors.get_mut(known), &len.kind)
+                        && error.code() == Some(Code::MismatchedTypes)
+                    {
+                        error.help = Some(format!("declare it as `const {}: usize`", path.join("::")));
+                    }
                 }
             }
         }

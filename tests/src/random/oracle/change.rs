@@ -21,9 +21,6 @@ pub struct Verdicts {
     pub accepted: u64,
     /// Refused by rustc alone, for ownership.
     pub ownership: u64,
-    /// Refused by rustc alone, for a parameter of a generic structure that is declared otherwise than it is used, or for an
-    /// implementation of an unknown trait.
-    pub bounds: u64,
     /// Accepted by rustc alone, by the generator's error.
     pub stricter: BTreeMap<String, u64>,
 }
@@ -78,9 +75,6 @@ pub fn judge_changed(
             (Verdict::Refused(error), Ok(_)) if OWNERSHIP.iter().any(|code| error.starts_with(code)) => {
                 counts.ownership += 1;
             }
-            // An implementation of a trait that the text does not have is passed over where nothing needs it.
-            (Verdict::Refused(error), Ok(_)) if error.starts_with("E0405") => counts.bounds += 1,
-            (Verdict::Refused(_), Ok(_)) if LOOSE.iter().any(|loose| line.contains(loose)) => counts.bounds += 1,
             (Verdict::Refused(error), Ok(_)) => lenient.push(Lenient { text, line, error }),
         }
     }
@@ -141,9 +135,6 @@ fn calls_the_trait(lines: &[&str]) -> bool {
     let mentions = |line: &str| [".tr(", ".twice(", "Tr"].iter().any(|word| line.contains(word));
     lines.iter().any(|line| !own(line) && mentions(line))
 }
-
-/// Parameters of generic structures: the generator looks at what they stand for, and not at their declarations.
-const LOOSE: [&str; 2] = ["<F: Fn(", "<const N: "];
 
 /// Replacements: each text, and the text that replaces it.
 const CHANGES: &[(&str, &str)] = &[
