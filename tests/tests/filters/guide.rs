@@ -538,8 +538,11 @@ fn a_guide_that_knows_more_lights_is_better() {
         }
         let shaded: Result<Vec<_>, _> = samples.iter().map(|at| renderer.draw_shaded(*at)).collect();
         let supersampled = picture::at_eight_bits(&mean_frame(&shaded.expect("pictures")).expect("a mean"));
-        println!("{pattern}, supersampled: {:.2} dB", psnr(&supersampled, &reference));
+        let best = psnr(&supersampled, &reference);
+        println!("{pattern}, supersampled: {best:.2} dB");
         assert!(all.is_sorted_by(|less, more| *more > less - 0.05), "{all:?}");
-        assert!(all[0] > none - 0.2 && all[4] > all[0] + 1.0, "without {none}: {all:?}");
+        // Of what the simplest guide leaves below supersampling, the lights close more than half.
+        let left = |guided: f64| best - guided;
+        assert!(all[0] > none - 0.2 && left(all[4]) < 0.5 * left(all[0]), "without {none}: {all:?}, of {best}");
     }
 }
