@@ -1,6 +1,7 @@
 //! Passes on a device: making, binding, dispatching, drawing, and every error.
 
 mod chains;
+mod chains_history;
 mod chains_made;
 #[path = "../common/mod.rs"]
 mod common;

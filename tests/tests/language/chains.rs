@@ -1,7 +1,8 @@
 //! Chains of passes: natively, by the interpreter, stored and fused, bit for bit.
 
 use glam::{UVec2, Vec4, uvec2};
-use straightline_bench::execute::{Inputs, Written, interpret_chain};
+use std::path::Path;
+use straightline_bench::execute::{Inputs, Written, interpret_chain, test_inputs};
 use straightline_codegen::chain::{Chain, ChainSpec, CompiledChain, Fuse};
 use straightline_codegen::{Format, ShaderSpec, Stage, Unroll};
 use straightline_kernels::prelude::{Address, Filter, Frame, Sampler, Texture};
@@ -163,7 +164,9 @@ fn what_is_fused_counts_for_the_pass_that_computes_it() {
         }";
     let auto = |text: &str| {
         let compiled = Chain::from_text("dear.rs", text, "dear").compile(&exact().fuse(Fuse::Auto));
-        compiled.unwrap_or_else(|errors| panic!("{}", errors.render(false))).fused
+        compiled
+            .unwrap_or_else(|errors| panic!("{}", errors.render(false)))
+            .fused
     };
     assert_eq!(auto(text), ["dear"]);
     assert_eq!(auto(&text.replace("1..=20", "1..=1")), ["dear", "cheap"]);
@@ -268,4 +271,64 @@ fn every_construct_is_the_same_picture_on_a_gpu() {
             }
         }
     }
+}
+
+/// Further files of an example.
+fn sources_of(example: &str) -> &'static [&'static str] {
+    match example {
+        "occlusion" => &["kernels/filters/ssao.rs"],
+        "smaa" => &[
+            "examples/gallery/smaa_edges.rs",
+            "examples/gallery/smaa_weights.rs",
+            "examples/gallery/smaa_blend.rs",
+        ],
+        "temporal" => &["examples/gallery/taa.rs", "examples/gallery/rcas.rs"],
+        _ => &[],
+    }
+}
+
+/// Every example runs, stored and fused, and a driver draws the pictures of the interpreter.
+#[test]
+fn the_examples_are_the_same_pictures_on_a_gpu() {
+    let bench = crate::common::bench();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let folder = std::fs::read_dir(root.join("examples/chains")).expect("the examples");
+    let mut names: Vec<String> = Vec::new();
+    for entry in folder {
+        let path = entry.expect("an entry").path();
+        let name = path
+            .file_stem()
+            .and_then(|stem| stem.to_str())
+            .expect("a name")
+            .to_owned();
+        let chain = Chain::from_file(&path, None).unwrap_or_else(|errors| panic!("{}", errors.render(false)));
+        let chain = chain.unwrap_or_else(|| panic!("{name} is no chain"));
+        let chain = sources_of(&name).iter().fold(chain, |chain, file| {
+            let with = chain.with_file(&root.join(file));
+            with.unwrap_or_else(|errors| panic!("{}", errors.render(false)))
+        });
+        for fuse in [Fuse::None, Fuse::All] {
+            let compiled = chain.compile(&ChainSpec::from(exact().shader).fuse(fuse.clone()));
+            let compiled = compiled.unwrap_or_else(|errors| panic!("{}", errors.render(false)));
+            let emitted = compiled
+                .emit()
+                .unwrap_or_else(|errors| panic!("{}", errors.render(false)));
+            let inputs = test_inputs(&compiled.inputs_graph(), uvec2(33, 18));
+            let expected = interpret_chain::<f32>(&compiled, &inputs).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let found = bench
+                .run_chain(&emitted, &inputs)
+                .unwrap_or_else(|e| panic!("{name}: {e}"));
+            for (expected, found) in expected.iter().zip(&found) {
+                let values = |written: &Written| written.texels.clone().into_iter().flatten();
+                let pairs: Vec<(f64, f64)> = values(expected).zip(values(found)).collect();
+                // Filters weigh by 1/256; a comparison in between can go the other way.
+                let far = pairs.iter().filter(|(a, b)| (a - b).abs() > 0.02 * (1.0 + a.abs()));
+                let (far, all) = (far.count(), pairs.len());
+                assert!(100 * far <= all, "{name}, fused {fuse}: {far} of {all} values differ");
+            }
+        }
+        names.push(name);
+    }
+    names.sort();
+    assert_eq!(names, ["bloom", "blur", "occlusion", "outline", "smaa", "temporal"]);
 }
