@@ -22,6 +22,7 @@
 //! ```
 
 mod builtin;
+pub mod chain;
 pub mod context;
 pub mod description;
 mod engine;
@@ -36,6 +37,7 @@ mod shader_context;
 mod spelling;
 mod words;
 
+pub use chain::ChainRequest;
 pub use description::FIXED;
 pub use engine::{Engine, Request};
 pub use error::EngineError;

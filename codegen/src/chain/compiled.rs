@@ -3,6 +3,8 @@
 use super::spec::ChainSpec;
 use crate::compiled::Compiled;
 use std::collections::BTreeMap;
+use std::sync::Arc;
+use straightline_evaluator::diagnostic::{Diagnostic, Errors, File, Span};
 use straightline_evaluator::front::chain::{Picture, Source};
 use straightline_evaluator::ir::Graph;
 use straightline_manifest::Format;
@@ -29,6 +31,9 @@ pub struct CompiledChain {
     /// Pictures that could not be fused or would cost more so, each with the reason.
     pub kept: Vec<(String, String)>,
     pub(super) spec: ChainSpec,
+    pub(super) files: Arc<Vec<File>>,
+    /// Place of the function's name.
+    pub(super) span: Span,
 }
 
 /// A pass of a compiled chain.
@@ -56,6 +61,22 @@ impl CompiledPass {
 }
 
 impl CompiledChain {
+    /// Returns an error about the chain, located at its name.
+    pub fn locate_error(&self, mut error: Diagnostic) -> Errors {
+        error.span = Some(self.span);
+        error.label = "this chain".to_owned();
+        Errors::new(vec![error], &self.files)
+    }
+
+    /// Names of the options that are not at their defaults, of those that a pass knows.
+    pub fn changed(&self) -> BTreeMap<&str, String> {
+        let kernels = self.kernels.values();
+        let changed = kernels.flat_map(|kernel| kernel.changed.iter().map(move |name| (kernel, name)));
+        changed
+            .filter_map(|(kernel, name)| Some((name.as_str(), kernel.options.get(name)?.to_string())))
+            .collect()
+    }
+
     /// The kernel of a pass.
     pub fn kernel_of(&self, pass: &CompiledPass) -> &Compiled {
         &self.kernels[&pass.kernel]

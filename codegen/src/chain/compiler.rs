@@ -77,6 +77,8 @@ pub(super) fn compile_passes(
         pictures,
         kernels,
         spec: spec.clone(),
+        files: Arc::clone(files),
+        span: chain.span,
     })
 }
 

@@ -16,7 +16,7 @@ export async function run({ modules, functionName, filtered, inputs, layered, un
             : new THREE.DataTexture(texels, width, height);
         made.type = THREE.FloatType;
         made.format = THREE.RGBAFormat;
-        if (name === filtered) made.minFilter = made.magFilter = THREE.LinearFilter;
+        if (filtered.includes(name)) made.minFilter = made.magFilter = THREE.LinearFilter;
         made.needsUpdate = true;
         nodes[name] = texture(made);
     }

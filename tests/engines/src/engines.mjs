@@ -8,7 +8,7 @@ import { fileURLToPath } from "node:url";
 import { PNG } from "pngjs";
 import { turned } from "../pages/rows.js";
 import { pack } from "./godot.mjs";
-import { HEIGHT, WIDTH, inputs } from "./kernels.mjs";
+import { HEIGHT, WIDTH, inputs, sizeOf, tableSizes } from "./kernels.mjs";
 
 const here = dirname(dirname(fileURLToPath(import.meta.url)));
 const native = join(here, "native");
@@ -28,8 +28,10 @@ function page(name, files, bits = 32) {
             className,
             functionName,
             picture,
-            // The texture that the kernel reads through a sampler.
+            // Textures that the kernel reads through a sampler.
             filtered: kernel.filtered,
+            chain: kernel.chain ?? false,
+            sizes: tableSizes(kernel),
             layered: Object.keys(layers).filter((key) => layers[key].length > 1),
             inputs: Object.fromEntries(Object.entries(layers).map(([key, each]) => [key, each.map((_, k) => `/inputs/${kernel.name}-${key}-${k}.f32`)])),
             uniforms: kernel.uniforms,

@@ -9,7 +9,7 @@ import { open } from "./browser.mjs";
 import { compare } from "./compare.mjs";
 import { ENGINES, PYTHON, UPRIGHT, scenePanda3d } from "./engines.mjs";
 import { readExr, writeExr } from "./exr.mjs";
-import { HEIGHT, KERNELS, WIDTH, inputs } from "./kernels.mjs";
+import { HEIGHT, KERNELS, WIDTH, inputs, sizeOf, tableSizes } from "./kernels.mjs";
 import { FILTERS, SCENE, SCENES } from "./scenes.mjs";
 
 const here = dirname(dirname(fileURLToPath(import.meta.url)));
@@ -50,18 +50,23 @@ function version({ program, version }) {
 function emitted(kernel, { engine, fixed }, folder) {
     const values = fixed ? Object.entries(kernel.uniforms).map(([name, value]) => `${name}=${value}`) : [];
     const options = [...kernel.options.filter((option) => !fixed || !option.endsWith("=uniform")), ...values].flatMap((option) => ["--set", option]);
-    const ran = spawnSync(straightline, ["emit", kernel.kernel, ...options, "--engine", engine, "--name", kernel.name, "--out", folder],
+    const ran = spawnSync(straightline, ["emit", kernel.kernel, ...sourcesOf(kernel), ...options, "--engine", engine, "--name", kernel.name, "--out", folder],
         { cwd: root, encoding: "utf8" });
     return ran.status === 0 ? null : ran.stderr.trim().replace(/^error: /, "");
 }
 
-/** What the interpreter makes of a kernel. */
-function reference(kernel, work) {
+function sourcesOf({ sources }) {
+    return (sources ?? []).flatMap((file) => ["--source", file]);
+}
+
+/** What the interpreter makes of a kernel, of a picture of this size. */
+function reference(kernel, size, work) {
     const given = [];
-    for (const [name, layers] of Object.entries(inputs(kernel))) {
+    const sizes = tableSizes(kernel);
+    for (const [name, layers] of Object.entries(inputs(kernel, size))) {
         const files = layers.map((rgba, k) => {
             const stem = join(work, `${kernel.name}-${name}-${k}`);
-            writeExr(`${stem}.exr`, WIDTH, HEIGHT, rgba);
+            writeExr(`${stem}.exr`, ...(sizes[name] ?? size), rgba);
             writeFileSync(`${stem}.f32`, new Uint8Array(rgba.buffer));
             return `${stem}.exr`;
         });
@@ -70,7 +75,7 @@ function reference(kernel, work) {
     const options = kernel.options.flatMap((option) => ["--set", option]);
     const uniforms = Object.entries(kernel.uniforms).flatMap(([name, value]) => ["--uniform", `${name}=${value}`]);
     const out = join(work, `${kernel.name}.exr`);
-    execFileSync(straightline, ["run", kernel.kernel, ...options, ...uniforms, ...given, "--executor", "cpu", "--out", out],
+    execFileSync(straightline, ["run", kernel.kernel, ...sourcesOf(kernel), ...options, ...uniforms, ...given, "--executor", "cpu", "--out", out],
         { cwd: root, stdio: ["ignore", "ignore", "pipe"] });
     return readExr(out).rgba;
 }
@@ -85,16 +90,21 @@ try {
     for (const [name, program] of Object.entries(PROGRAMS)) versions[name] = version(program);
     const kernels = KERNELS.filter(({ name }) => !onlyKernel || name === onlyKernel);
     const references = {};
+    const engines = ENGINES.filter(({ name, engine }) => !only || name === only || engine === only);
     for (const kernel of kernels) {
-        // Kernels that need more than pictures fit no engine here, which is what is tested of them.
-        references[kernel.name] = kernel.refused ? null : reference(kernel, work);
+        // Kernels that need more than pictures fit no engine here, which is what is tested of them. The usual size comes last:
+        // its inputs are those that pages read.
+        const sizes = new Set([...engines.map((engine) => String(sizeOf(kernel, engine))), `${WIDTH},${HEIGHT}`]);
+        for (const size of kernel.refused ? [] : [...sizes].sort((a, b) => (b === String(kernel.even)) - (a === String(kernel.even)))) {
+            references[`${kernel.name} ${size}`] = reference(kernel, size.split(",").map(Number), work);
+        }
     }
     browser = versions.chromium && (await open(PROGRAMS.chromium.program, {
         pages: join(here, "pages"), modules: join(here, "node_modules"), emitted: work, inputs: work,
     }));
-    for (const engine of ENGINES.filter(({ name, engine }) => !only || name === only || engine === only)) {
+    for (const engine of engines) {
         for (const kernel of kernels) {
-            const result = await tried(engine, kernel, references[kernel.name]);
+            const result = await tried(engine, kernel, references[`${kernel.name} ${sizeOf(kernel, engine)}`]);
             rows.push({ engine: engine.name, kernel: kernel.name, ...result });
             if (!["same", "refused"].includes(result.state)) failed += 1;
             const figures = result.most === undefined ? "" : ` most ${result.most.toExponential(1)}, ${(100 * result.within).toFixed(2)} % within ${result.limit.toExponential(1)}`;
