@@ -14,6 +14,8 @@ pub struct ChainContext {
     pub name: String,
     /// Name of the chain's function.
     pub chain: String,
+    /// Name of a function of the host's that stands for the chain: that of the shader of the result.
+    pub function: String,
     /// The name in the form of a type name: `JointBilateral`.
     pub class: String,
     /// The name in words: `Joint bilateral`.
@@ -101,6 +103,8 @@ pub struct PassContext {
     pub scale: Option<[ScaleContext; 2]>,
     /// A texture of the shader with the size of what it draws, by its name in the kernel.
     pub framed: Option<String>,
+    /// A texture of the shader that a sampler filters, by its name in the kernel.
+    pub sampled: Option<String>,
 }
 
 /// Origin of an input of a pass.

@@ -138,7 +138,7 @@ impl Engine {
         let misfit = fits::why_not(&bound, &inputs, &limits, title)
             .or_else(|| inputs.find_unknown(&bound, engine.description()))
             .or_else(|| unknown_format(&emitted.plan, chain, title))
-            .or_else(|| other_size(&emitted.plan, chain, &inputs, title));
+            .or_else(|| other_target(&emitted.plan, chain, &inputs, title));
         if let Some(misfit) = misfit {
             return Err(unfit(misfit));
         }
@@ -157,6 +157,9 @@ impl Engine {
         context.passes = passes.pass_contexts(&shaders, scales.as_ref());
         context.results = passes.result_contexts(&shaders);
         context.memory = passes.memory_contexts(&shaders);
+        let last = context.passes.iter().rfind(|pass| pass.result.is_some());
+        let last = last.and_then(|pass| shaders.get(pass.shader)?.kernel.shaders.values().next_back());
+        context.function = last.map_or_else(|| request.compiled.name.clone(), |text| text.function.clone());
         context.name_inputs(&shaders, &self.description().words);
         context.shaders = shaders;
         Ok(context)
@@ -185,6 +188,7 @@ impl Engine {
         ChainContext {
             name: name.clone(),
             chain: compiled.name.clone(),
+            function: String::new(),
             class: spelling::class_name(name, &self.description().words),
             title: single_line_comment(&spelling::title(name)),
             summary: single_line_comment(&compiled.summary),
@@ -225,13 +229,23 @@ fn unknown_format(plan: &ChainPlan, chain: &ChainDescription, title: &str) -> Op
     Some(Misfit::new(why))
 }
 
-/// Returns the misfit of a result that does not have the picture's size, of an engine whose target has it.
-fn other_size(plan: &ChainPlan, chain: &ChainDescription, inputs: &Inputs, title: &str) -> Option<Misfit> {
+/// Returns the misfit of a result that does not have the picture's size, or that the last pass does not draw, of an engine
+/// whose target is that of the picture.
+fn other_target(plan: &ChainPlan, chain: &ChainDescription, inputs: &Inputs, title: &str) -> Option<Misfit> {
     let mut provided = inputs.iter();
     let picture = provided.find(|(_, meaning)| meaning.is_picture()).map(|(name, _)| name);
+    if !chain.draws_picture {
+        return None;
+    }
+    if let (Some(result), Some(last)) = (plan.results().next(), plan.passes.last())
+        && !last.writes.contains(&result.name)
+    {
+        let why = format!("draws `{}` after `{}`, which it returns", last.name, result.name);
+        return Some(Misfit::new(format!("{why}, and {title} takes what the last pass draws")));
+    }
     let has_size = |size: &SizeRule| picture.is_some_and(|picture| *size == SizeRule::of_input(picture));
     let mut others = plan.results().filter(|result| !has_size(&result.size));
-    let result = others.next().filter(|_| chain.draws_picture)?;
+    let result = others.next()?;
     let why = format!(
         "returns `{}` of size `{}`, and {title} draws to a target of the picture's size",
         result.name, result.size

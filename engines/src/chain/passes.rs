@@ -138,6 +138,8 @@ impl Passes<'_> {
                 let source = reads.get(&texture.name);
                 source.is_some_and(|source| self.size_of(&source.name).as_ref() == Some(size))
             });
+            let texts = kernel.shaders.values();
+            let mut filtered = texts.flat_map(|text| &text.combined).filter(|c| c.filter != "nearest");
             Some(PassContext {
                 index,
                 name: planned.name.to_string(),
@@ -150,6 +152,7 @@ impl Passes<'_> {
                 height: size::javascript(size, 1),
                 scale: scales.and_then(|scales| scales.passes.get(index).cloned()),
                 framed: framed.map(|texture| texture.name.clone()),
+                sampled: filtered.next().map(|combined| combined.texture.clone()),
                 reads,
             })
         });
