@@ -89,6 +89,10 @@ pub struct PassContext {
     pub shader: usize,
     /// Textures, samplers and buffers of the shader by their names in the kernel, with what each reads.
     pub reads: BTreeMap<String, SourceContext>,
+    /// The textures among them, each once, in the order of the shader.
+    pub textures: Vec<SourceContext>,
+    /// Its uniforms, of [`ChainContext::uniforms`].
+    pub uniforms: Vec<UniformContext>,
     /// Number of the texture that it draws to, unless the picture is a result.
     pub memory: Option<u32>,
     /// Index of the result that it draws.
@@ -112,7 +116,7 @@ pub struct PassContext {
 pub struct SourceContext {
     /// Name of the input or picture in the chain.
     pub name: String,
-    /// Name of the input in shaders, if it is one.
+    /// Name beside the shaders, of an input.
     pub spelled: String,
     /// True of an input of the chain.
     pub input: bool,
@@ -146,50 +150,72 @@ pub struct MemoryContext {
 }
 
 impl ChainContext {
-    /// Chooses the names of inputs and uniforms beside the shaders: those that a shader has for them, each once.
-    pub(super) fn name_inputs(&mut self, shaders: &[PassShaderContext], words: &BTreeSet<String>) {
-        let mut taken: BTreeSet<String> = BTreeSet::new();
-        for shader in shaders {
-            taken.extend(shader.kernel.shaders.values().map(|text| text.function.clone()));
-        }
-        let mut free = |wanted: &str| {
-            let numbered = (2..).map(|number: u32| format!("{wanted}_{number}"));
-            let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
-            let is_free = |name: &String| !taken.contains(name) && !is_among(words, name);
-            let name = names.find(is_free).unwrap_or_default();
-            taken.insert(name.clone());
-            name
-        };
+    /// Chooses the names of textures and uniforms beside the shaders: those that a shader has for them, each once.
+    pub(super) fn name_inputs(&mut self, words: [&BTreeSet<String>; 2]) {
+        let [of_engine, of_textures] = words;
+        let functions = self.shaders.iter().flat_map(|shader| shader.kernel.shaders.values());
+        let mut taken: BTreeSet<String> = functions.map(|text| text.function.clone()).collect();
+        let nothing = BTreeSet::new();
         let mut spelled: BTreeMap<String, String> = BTreeMap::new();
         for texture in &mut self.textures {
             let name = &texture.texture.name;
-            let readers = self.passes.iter().filter_map(|pass| {
+            let own_name = |pass: &PassContext| {
                 let mut reads = pass.reads.iter();
                 let (own, _) = reads.find(|(_, source)| source.input && source.name == *name)?;
-                let textures = &shaders.get(pass.shader)?.kernel.textures;
+                let textures = &self.shaders.get(pass.shader)?.kernel.textures;
                 Some(textures.iter().find(|known| known.name == *own)?.spelled.clone())
-            });
-            let wanted = readers.into_iter().next().unwrap_or_else(|| name.clone());
-            texture.texture.spelled = free(&wanted);
+            };
+            let wanted = self.passes.iter().find_map(own_name).unwrap_or_else(|| name.clone());
+            texture.texture.spelled = free_name(&wanted, &mut taken, [of_engine, of_textures]);
             spelled.insert(name.clone(), texture.texture.spelled.clone());
         }
         for uniform in &mut self.uniforms {
-            let mut all = shaders.iter().flat_map(|shader| &shader.kernel.uniforms);
+            let mut all = self.shaders.iter().flat_map(|shader| &shader.kernel.uniforms);
             let wanted = all.find(|known| known.name == uniform.name);
-            uniform.spelled = free(wanted.map_or(&uniform.name, |known| &known.spelled));
+            let wanted = wanted.map_or(&uniform.name, |known| &known.spelled).clone();
+            uniform.spelled = free_name(&wanted, &mut taken, [of_engine, &nothing]);
         }
-        let copies = self.picture.iter_mut().chain(&mut self.own);
-        for copy in copies {
+        for copy in self.picture.iter_mut().chain(&mut self.own) {
             if let Some(name) = spelled.get(&copy.texture.name) {
                 copy.texture.spelled.clone_from(name);
             }
         }
         for pass in &mut self.passes {
-            for source in pass.reads.values_mut().filter(|source| source.input) {
-                if let Some(name) = spelled.get(&source.name) {
+            for source in pass.reads.values_mut().chain(&mut pass.textures) {
+                if let (true, Some(name)) = (source.input, spelled.get(&source.name)) {
                     source.spelled.clone_from(name);
                 }
             }
+            let own = self.shaders.get(pass.shader).map(|shader| &shader.kernel.uniforms);
+            let is_own = |uniform: &&UniformContext| own.is_some_and(|own| own.iter().any(|o| o.name == uniform.name));
+            pass.uniforms = self.uniforms.iter().filter(is_own).cloned().collect();
         }
+    }
+}
+
+/// Returns the wanted name, or one like it that is neither taken nor among the words, and takes it.
+fn free_name(wanted: &str, taken: &mut BTreeSet<String>, words: [&BTreeSet<String>; 2]) -> String {
+    // Words may stand for all that begin so.
+    let marked = format!("v_{wanted}");
+    let numbered = (2..1_000_000).map(|number: u32| format!("{marked}_{number}"));
+    let mut names = [wanted.to_owned(), marked.clone()].into_iter().chain(numbered);
+    let is_free = |name: &String| !taken.contains(name) && words.iter().all(|words| !is_among(words, name));
+    let name = names.find(is_free).unwrap_or_else(|| marked.clone());
+    taken.insert(name.clone());
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_free() {
+        let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<BTreeSet<_>>();
+        let (engine, textures) = (words(&["Pass*"]), words(&["*_linear"]));
+        let mut taken = words(&["area"]);
+        let mut free = |name: &str| free_name(name, &mut taken, [&engine, &textures]);
+        let found = ["search", "area", "area", "Passed", "a_linear"].map(&mut free);
+        assert_eq!(found, ["search", "v_area", "v_area_2", "v_Passed", "v_a_linear_2"]);
     }
 }

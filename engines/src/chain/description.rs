@@ -3,7 +3,7 @@
 use crate::description::{Description, Limits};
 use crate::engine::Engine;
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use straightline_manifest::Format;
 
 /// Description of chains for an engine that takes several passes: `[chain]`.
@@ -21,6 +21,12 @@ pub struct ChainDescription {
     /// Meanings of the engine that these templates provide.
     #[serde(default)]
     pub meanings: Vec<String>,
+    /// Maximum number of passes.
+    #[serde(default)]
+    pub passes: Option<usize>,
+    /// Names that no texture of the user's has beside the shaders, as `words` of the engine.
+    #[serde(default)]
+    pub words: BTreeSet<String>,
     /// Limits in place of those of single kernels.
     #[serde(default)]
     pub limits: Option<Limits>,

@@ -123,6 +123,10 @@ impl Engine {
             return Err(Unfit::Engine(Misfit::new(why).help(help.to_owned())));
         };
         let unfit = |misfit: Misfit| Unfit::Engine(misfit).of_subject("it");
+        let count = request.compiled.passes.len();
+        if let Some(most) = chain.passes.filter(|most| count > *most) {
+            return Err(unfit(Misfit::new(format!("has {count} passes, and {title} takes {most}"))));
+        }
         let stage = engine.description().shaders.values().next();
         let probe = EmitOptions::new()
             .stage(stage.map_or(Stage::Fragment, ShaderDescription::stage))
@@ -160,8 +164,8 @@ impl Engine {
         let last = context.passes.iter().rfind(|pass| pass.result.is_some());
         let last = last.and_then(|pass| shaders.get(pass.shader)?.kernel.shaders.values().next_back());
         context.function = last.map_or_else(|| request.compiled.name.clone(), |text| text.function.clone());
-        context.name_inputs(&shaders, &self.description().words);
         context.shaders = shaders;
+        context.name_inputs([&self.description().words, &chain.words]);
         Ok(context)
     }
 

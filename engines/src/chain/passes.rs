@@ -138,6 +138,12 @@ impl Passes<'_> {
                 let source = reads.get(&texture.name);
                 source.is_some_and(|source| self.size_of(&source.name).as_ref() == Some(size))
             });
+            let mut textures: Vec<SourceContext> = Vec::new();
+            for source in kernel.textures.iter().filter_map(|texture| reads.get(&texture.name)) {
+                if textures.iter().all(|known| known.name != source.name) {
+                    textures.push(source.clone());
+                }
+            }
             let texts = kernel.shaders.values();
             let mut filtered = texts.flat_map(|text| &text.combined).filter(|c| c.filter != "nearest");
             Some(PassContext {
@@ -145,6 +151,8 @@ impl Passes<'_> {
                 name: planned.name.to_string(),
                 file: format!("{index}-{}", spelling::spelled_out(&planned.name)),
                 shader,
+                textures,
+                uniforms: Vec::new(),
                 memory: picture.memory,
                 result: self.result_of(&planned.name),
                 format: self.format(picture.format),

@@ -189,7 +189,7 @@ async function tried(engine, kernel, expected) {
         const className = kernel.name.split("_").map((word) => word[0].toUpperCase() + word.slice(1)).join("");
         const functionName = kernel.kernel.split("/").at(-1).replace(".rs", "");
         const { rgba, bits } = await engine.run({
-            kernel, folder, browser, className, functionName, picture: "color", url: `/emitted/${engine.engine}-${kernel.name}`,
+            engine, kernel, folder, browser, className, functionName, picture: "color", url: `/emitted/${engine.engine}-${kernel.name}`,
         });
         const found = compare(rgba, expected, bits, kernel.bound + (engine.slack ?? 0));
         return { state: found.within >= kernel.share ? "same" : "differs", ...found };
