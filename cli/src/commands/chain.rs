@@ -1,6 +1,6 @@
 //! `emit` and `explain` of chains of passes.
 
-use super::emit::{check_name, engine_failure, for_engine};
+use super::emit::{check_name, engine_failure};
 use crate::args::{EmitArgs, ExplainArgs};
 use crate::failure::{Failure, format_count};
 use serde_json::{Value, json};
@@ -29,23 +29,18 @@ pub fn emit_chain(args: &EmitArgs, chain: &Chain) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the files for an engine. A chain of which one pass is left is a kernel.
+/// Returns the files for an engine.
 fn engine_files(
     args: &EmitArgs,
     chain: &Chain,
     (compiled, name): (&CompiledChain, &str),
     engine: &str,
 ) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
-    let binds = args.bind.iter().cloned().collect();
-    let emit = args.shader_spec().emit;
     let options = chain.options()?;
-    if let [pass] = compiled.passes.as_slice() {
-        return for_engine((emit, binds), &options, compiled.kernel_of(pass), engine, name);
-    }
     let request = ChainRequest {
         name: name.to_owned(),
-        emit,
-        binds,
+        emit: args.shader_spec().emit,
+        binds: args.bind.iter().cloned().collect(),
         ..ChainRequest::new(compiled, &options)
     };
     let engine = Engine::find(engine).map_err(engine_failure)?;

@@ -70,7 +70,7 @@ pub fn check_name(name: &str) -> Result<(), Failure> {
 }
 
 /// Returns the files for an engine.
-pub fn for_engine(
+fn for_engine(
     (emit, binds): (EmitOptions, BTreeMap<String, String>),
     options: &[OptionInfo],
     compiled: &Compiled,

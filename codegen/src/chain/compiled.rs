@@ -16,6 +16,8 @@ pub struct CompiledChain {
     pub name: String,
     /// First sentence of its documentation.
     pub summary: String,
+    /// Options that are not at their defaults, with their values.
+    pub changed: Vec<(String, String)>,
     /// Textures, samplers and buffers that it takes.
     pub inputs: Vec<String>,
     /// Pictures that are stored, in the order in which they are drawn; of each, the pass of the same index.
@@ -66,15 +68,6 @@ impl CompiledChain {
         error.span = Some(self.span);
         error.label = "this chain".to_owned();
         Errors::new(vec![error], &self.files)
-    }
-
-    /// Names of the options that are not at their defaults, of those that a pass knows.
-    pub fn changed(&self) -> BTreeMap<&str, String> {
-        let kernels = self.kernels.values();
-        let changed = kernels.flat_map(|kernel| kernel.changed.iter().map(move |name| (kernel, name)));
-        changed
-            .filter_map(|(kernel, name)| Some((name.as_str(), kernel.options.get(name)?.to_string())))
-            .collect()
     }
 
     /// The kernel of a pass.

@@ -131,10 +131,10 @@ fn add_input(given: &mut Vec<Binding>, name: &str, kind: &BindingKind) {
                 *sample_type = SampleType::Filterable;
             }
         }
-        (BindingKind::Sampler { sampler }, BindingKind::Sampler { sampler: other }) => {
-            if *other == SamplerType::Filtering {
-                *sampler = *other;
-            }
+        (BindingKind::Sampler { sampler }, BindingKind::Sampler { sampler: other })
+            if *other == SamplerType::Filtering =>
+        {
+            *sampler = *other;
         }
         _ => {}
     }

@@ -16,7 +16,7 @@ pub use scale::ScaleContext;
 
 use crate::context::{self as kernel_context};
 use crate::description::ShaderDescription;
-use crate::engine::{Engine, Unfit, other_engines};
+use crate::engine::{Engine, Request, Unfit, other_engines};
 use crate::error::EngineError;
 use crate::fits::{self, Misfit};
 use crate::inputs::Inputs;
@@ -66,12 +66,21 @@ impl<'a> ChainRequest<'a> {
 }
 
 impl Engine {
-    /// Returns the files of a chain, by name.
+    /// Returns the files of a chain, by name. One of a single pass is a kernel.
     ///
     /// # Errors
     ///
     /// If the chain does not fit, with a suggestion; or if a template fails.
     pub fn render_chain_files(&self, request: &ChainRequest<'_>) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
+        if let [pass] = request.compiled.passes.as_slice() {
+            let kernel = Request::new(request.compiled.kernel_of(pass), request.options);
+            return self.render_files(&Request {
+                name: request.name.clone(),
+                emit: request.emit.clone().format(pass.format),
+                binds: request.binds.clone(),
+                ..kernel
+            });
+        }
         let context = self.chain_context(request)?;
         let wrong = |e: serde_json::Error| self.description_error(e.to_string());
         let whole = serde_json::to_value(&context).map_err(wrong)?;
@@ -125,7 +134,9 @@ impl Engine {
         let unfit = |misfit: Misfit| Unfit::Engine(misfit).of_subject("it");
         let count = request.compiled.passes.len();
         if let Some(most) = chain.passes.filter(|most| count > *most) {
-            return Err(unfit(Misfit::new(format!("has {count} passes, and {title} takes {most}"))));
+            return Err(unfit(Misfit::new(format!(
+                "has {count} passes, and {title} takes {most}"
+            ))));
         }
         let stage = engine.description().shaders.values().next();
         let probe = EmitOptions::new()
@@ -188,7 +199,7 @@ impl Engine {
         });
         let textures: Vec<ChainTextureContext> = textures.collect();
         let picture = textures.iter().find(|texture| texture.texture.meaning == Some("color"));
-        let changed = compiled.changed().into_iter();
+        let changed = compiled.changed.iter();
         ChainContext {
             name: name.clone(),
             chain: compiled.name.clone(),
@@ -245,7 +256,9 @@ fn other_target(plan: &ChainPlan, chain: &ChainDescription, inputs: &Inputs, tit
         && !last.writes.contains(&result.name)
     {
         let why = format!("draws `{}` after `{}`, which it returns", last.name, result.name);
-        return Some(Misfit::new(format!("{why}, and {title} takes what the last pass draws")));
+        return Some(Misfit::new(format!(
+            "{why}, and {title} takes what the last pass draws"
+        )));
     }
     let has_size = |size: &SizeRule| picture.is_some_and(|picture| *size == SizeRule::of_input(picture));
     let mut others = plan.results().filter(|result| !has_size(&result.size));
