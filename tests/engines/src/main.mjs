@@ -47,12 +47,39 @@ function version({ program, version }) {
     return ran.status === 0 ? (ran.stdout || ran.stderr).split("\n")[0].trim() : null;
 }
 
+/** A record with the rows of a run of some engines or kernels in it, in the order of a run of all. */
+function merged(kept, found) {
+    const orders = [[...ENGINES, ...SCENES], [...KERNELS, ...FILTERS]].map((all) => all.map(({ name }) => name));
+    const place = (row) => [row.engine, row.kernel].map((name, k) => orders[k].indexOf(name));
+    const order = (a, b) => place(a)[0] - place(b)[0] || place(a)[1] - place(b)[1];
+    const joined = (old, rows) => {
+        const isOld = ({ engine, kernel }) => !rows.some((row) => row.engine === engine && row.kernel === kernel);
+        return [...old.filter(isOld), ...rows.map(dated)].sort(order);
+    };
+    // A row states the versions of programs that have changed since the others were written.
+    const changed = Object.entries(found.versions).filter(([name, version]) => version && (kept.versions[name] ?? version) !== version);
+    const dated = (row) => {
+        const needs = ENGINES.find(({ name }) => name === row.engine)?.needs ?? ["chromium"];
+        const own = changed.filter(([name]) => row.state === "same" && needs.includes(name));
+        return own.length ? { ...row, versions: Object.fromEntries(own) } : row;
+    };
+    return {
+        versions: { ...found.versions, ...kept.versions },
+        rows: joined(kept.rows, found.rows),
+        scenes: joined(kept.scenes ?? [], found.scenes),
+    };
+}
+
 function emitted(kernel, { engine, fixed }, folder) {
-    const values = fixed ? Object.entries(kernel.uniforms).map(([name, value]) => `${name}=${value}`) : [];
+    // A chain of several passes fits none of them.
+    const values = fixed && !kernel.chain ? Object.entries(kernel.uniforms).map(([name, value]) => `${name}=${value}`) : [];
     const options = [...kernel.options.filter((option) => !fixed || !option.endsWith("=uniform")), ...values].flatMap((option) => ["--set", option]);
     const ran = spawnSync(straightline, ["emit", kernel.kernel, ...sourcesOf(kernel), ...options, "--engine", engine, "--name", kernel.name, "--out", folder],
         { cwd: root, encoding: "utf8" });
-    return ran.status === 0 ? null : ran.stderr.trim().replace(/^error: /, "");
+    if (ran.status === 0) return null;
+    const said = ran.stderr.trim().replace(/^error(\[\w+\])?: /, "");
+    // The lines after a refusal show its place.
+    return said.includes("does not fit") ? said.split("\n")[0] : said;
 }
 
 function sourcesOf({ sources }) {
@@ -133,7 +160,9 @@ try {
 }
 if (record) {
     const lock = JSON.parse(readFileSync(join(here, "package.json"), "utf8"));
-    const text = JSON.stringify({ command: "tests/engines/run --record=FILE", size: [WIDTH, HEIGHT], versions: { ...versions, ...lock.dependencies }, rows, scenes }, null, 1);
+    const found = { versions: { ...versions, ...lock.dependencies }, rows, scenes };
+    const kept = only || onlyKernel ? JSON.parse(readFileSync(record, "utf8")) : { versions: {}, rows: [], scenes: [] };
+    const text = JSON.stringify({ command: "tests/engines/run --record=FILE", size: [WIDTH, HEIGHT], ...merged(kept, found) }, null, 1);
     mkdirSync(dirname(record), { recursive: true });
     writeFileSync(record, `${text}\n`);
 }
