@@ -1,5 +1,6 @@
 //! Description of an engine, read from `engine.toml`.
 
+pub use crate::chain::{ChainDescription, SizeForm};
 use crate::meaning::Meaning;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,6 +37,9 @@ pub struct Description {
     pub lacks: BTreeMap<String, String>,
     /// Template and the file that it makes, whose name is a template too.
     pub files: BTreeMap<String, String>,
+    /// Description of chains of several passes, of an engine that takes them.
+    #[serde(default)]
+    pub chain: Option<ChainDescription>,
 }
 
 /// Source of a meaning in an engine.
@@ -163,11 +167,20 @@ impl Description {
         if description.shaders.is_empty() || description.files.is_empty() {
             return Err("it names no shader, or no file".to_owned());
         }
+        if let Some(chain) = &description.chain {
+            chain.check(&description).map_err(|why| format!("[chain]: {why}"))?;
+        }
         Ok(description)
     }
 }
 
 impl Description {
+    /// Names of the templates, those of chains too.
+    pub(crate) fn templates(&self) -> BTreeSet<&String> {
+        let of_chains = self.chain.iter().flat_map(ChainDescription::templates);
+        self.files.keys().chain(of_chains).collect()
+    }
+
     /// Returns whether a user can set an input that the engine does not provide.
     pub(crate) fn binds_own(&self, is_texture: bool) -> bool {
         !is_texture || self.limits.own_textures.unwrap_or(true)

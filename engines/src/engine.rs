@@ -114,9 +114,14 @@ impl Engine {
     ///
     /// If the kernel does not fit, with a suggestion.
     pub fn context(&self, request: &Request<'_>) -> Result<Context, EngineError> {
-        let (inputs, shaders) = self
-            .emit_shaders(request)
-            .map_err(|unfit| unfit.into_errors(self, request))?;
+        let (inputs, shaders) = self.emit_shaders(request).map_err(|unfit| {
+            let compiled = request.compiled;
+            let what = format!("`{}` does not fit {}", compiled.kernel, self.description.title);
+            let instead = other_engines(self, |other| other.fits_kernel(request));
+            unfit
+                .of_subject("it")
+                .into_errors(&what, instead, |error, input| compiled.locate_error(error, input))
+        })?;
         Ok(self.context_of(request, &inputs, shaders))
     }
 
@@ -126,7 +131,7 @@ impl Engine {
     }
 
     /// The inputs that the engine provides to a kernel, and its shaders by the names of `engine.toml`.
-    fn emit_shaders(&self, request: &Request<'_>) -> Result<(Inputs, BTreeMap<String, Shader>), Unfit> {
+    pub(crate) fn emit_shaders(&self, request: &Request<'_>) -> Result<(Inputs, BTreeMap<String, Shader>), Unfit> {
         // Errors of bindings are reported before those of a language: a user can understand them.
         let stage = self.description.shaders.values().next().map(ShaderDescription::stage);
         let probe = EmitOptions::new()
@@ -159,7 +164,12 @@ impl Engine {
         Ok((inputs, shaders))
     }
 
-    fn context_of(&self, request: &Request<'_>, inputs: &Inputs, shaders: BTreeMap<String, Shader>) -> Context {
+    pub(crate) fn context_of(
+        &self,
+        request: &Request<'_>,
+        inputs: &Inputs,
+        shaders: BTreeMap<String, Shader>,
+    ) -> Context {
         let (compiled, name) = (request.compiled, &request.name);
         let first = shaders.values().next();
         let mut context = Context {
@@ -244,7 +254,7 @@ impl Engine {
 }
 
 /// A shader of a kernel.
-struct Shader {
+pub(crate) struct Shader {
     text: String,
     takes_uniforms: bool,
     target: Target,
@@ -289,11 +299,11 @@ fn shader_text(emitted: &Emitted, target: Target) -> String {
     String::from_utf8(bytes).unwrap_or_default()
 }
 
-/// Reason why a kernel does not fit.
-enum Unfit {
-    /// The engine cannot bind a resource of the kernel.
+/// Reason why a kernel or chain does not fit.
+pub(crate) enum Unfit {
+    /// The engine cannot bind a resource of it.
     Engine(Misfit),
-    /// The generator cannot emit the kernel in this form.
+    /// The generator cannot emit it in this form.
     Emit(Errors),
 }
 
@@ -304,19 +314,24 @@ impl From<Errors> for Unfit {
 }
 
 impl Unfit {
-    /// The error at its place in the kernel, with the engines that would fit.
-    fn into_errors(self, engine: &Engine, request: &Request<'_>) -> Errors {
-        let others = engine_names().filter(|name| *name != engine.name);
-        let fitting = others.filter(|name| Engine::builtin(name).is_some_and(|other| other.fits_kernel(request)));
-        let instead = match fitting.collect::<Vec<_>>().join(", ") {
-            none if none.is_empty() => "no built-in engine takes it: `--target` writes the shader alone".to_owned(),
-            some => format!("these engines take it: {some}"),
-        };
-        let compiled = request.compiled;
-        let what = format!("`{}` does not fit {}", compiled.kernel, engine.description.title);
+    /// Says of what a misfit is stated: of `it`, or of a pass.
+    pub(crate) fn of_subject(mut self, subject: &str) -> Unfit {
+        if let Unfit::Engine(misfit) = &mut self {
+            misfit.why = format!("{subject} {}", misfit.why);
+        }
+        self
+    }
+
+    /// The error at its place, with the engines that would fit. `what` is the beginning of the message, `locate` adds the place.
+    pub(crate) fn into_errors(
+        self,
+        what: &str,
+        instead: String,
+        locate: impl FnOnce(Diagnostic, Option<&str>) -> Errors,
+    ) -> Errors {
         match self {
             Unfit::Engine(Misfit { why, input, code, help }) => {
-                let mut error = Diagnostic::new(code, format!("{what}: it {why}"));
+                let mut error = Diagnostic::new(code, format!("{what}: {why}"));
                 match help {
                     Some(help) => {
                         error.notes.push(instead);
@@ -324,7 +339,7 @@ impl Unfit {
                     }
                     None => error = error.help(instead),
                 }
-                compiled.locate_error(error, input.as_deref())
+                locate(error, input.as_deref())
             }
             Unfit::Emit(mut errors) => {
                 for error in &mut errors.diagnostics {
@@ -334,5 +349,15 @@ impl Unfit {
                 errors
             }
         }
+    }
+}
+
+/// Lists the other built-in engines that fit.
+pub(crate) fn other_engines(engine: &Engine, fits: impl Fn(&Engine) -> bool) -> String {
+    let others = engine_names().filter(|name| *name != engine.name);
+    let fitting = others.filter(|name| Engine::builtin(name).is_some_and(|other| fits(&other)));
+    match fitting.collect::<Vec<_>>().join(", ") {
+        none if none.is_empty() => "no built-in engine takes it: `--target` writes the shader alone".to_owned(),
+        some => format!("these engines take it: {some}"),
     }
 }

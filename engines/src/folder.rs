@@ -6,8 +6,7 @@
 use crate::description::Description;
 use crate::engine::Engine;
 use crate::error::EngineError;
-use crate::render;
-use serde_json::Value;
+use crate::render::{self, Sheet};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
@@ -38,7 +37,7 @@ impl Engine {
         let description = Description::from_toml(&description).map_err(wrong)?;
         let mut templates = BTreeMap::new();
         let mut bytes = 0;
-        for template in description.files.keys() {
+        for template in description.templates() {
             if !render::is_plain(template) {
                 return Err(wrong(format!("`{template}` is no name of a template in its folder")));
             }
@@ -57,12 +56,12 @@ impl Engine {
     }
 
     /// Renders in a thread of its own, which is left behind when the time is over.
-    pub(crate) fn render_within_time(&self, context: Value) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
+    pub(crate) fn render_within_time(&self, sheets: Vec<Sheet>) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
         let (sender, receiver) = mpsc::channel();
         let engine = self.clone();
         let work = move || {
             // The receiver is gone where the time is over.
-            let _ = sender.send(engine.render_now(&context));
+            let _ = sender.send(engine.render_now(&sheets));
         };
         let started = std::thread::Builder::new().name("templates".to_owned()).spawn(work);
         started.map_err(|why| self.description_error(format!("no thread can be started for its templates: {why}")))?;

@@ -22,6 +22,7 @@
 //! ```
 
 mod builtin;
+pub mod chain;
 pub mod context;
 pub mod description;
 mod engine;
@@ -36,12 +37,14 @@ mod shader_context;
 mod spelling;
 mod words;
 
+pub use chain::ChainRequest;
 pub use description::FIXED;
 pub use engine::{Engine, Request};
 pub use error::EngineError;
 pub use meaning::{MEANINGS, Meaning, OWN};
 
 use std::path::{Path, PathBuf};
+use straightline_codegen::chain::{Chain, ChainSpec};
 use straightline_codegen::{Kernel, Settings, files};
 
 /// Names of the built-in engines, in order.
@@ -57,6 +60,29 @@ pub fn engine_names() -> impl Iterator<Item = &'static str> {
 /// The kernel is wrong, it does not fit the engine, or the files cannot be written.
 pub fn write(kernel: &Kernel, settings: &Settings, engine: &str, out: &Path) -> Result<Vec<PathBuf>, EngineError> {
     write_bound(kernel, settings, engine, &[], out)
+}
+
+/// Writes a chain for an engine, as [`write()`] does a kernel. `binds` has a [`Meaning`] or [`OWN`] for inputs whose names in the
+/// chain do not say theirs.
+///
+/// # Errors
+///
+/// As [`write()`].
+pub fn write_chain(
+    chain: &Chain,
+    spec: &ChainSpec,
+    engine: &str,
+    binds: &[(&str, &str)],
+    out: &Path,
+) -> Result<Vec<PathBuf>, EngineError> {
+    let engine = Engine::find(engine)?;
+    let compiled = chain.compile(spec)?;
+    let options = chain.options()?;
+    let request = ChainRequest::new(&compiled, &options);
+    let request = binds
+        .iter()
+        .fold(request, |request, (input, word)| request.bind(input, word));
+    Ok(files::write_all(out, &engine.render_chain_files(&request)?)?)
 }
 
 /// As [`write()`], with a [`Meaning`] or [`OWN`] for inputs whose names do not say theirs: `[("before", "color")]`.

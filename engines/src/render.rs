@@ -12,6 +12,14 @@ use tera::Tera;
 /// Bytes that one rendered file may have: naga's limits are far below.
 const LONGEST: usize = 32 << 20;
 
+/// Templates with the files that they make, and their context.
+#[derive(Clone, Debug)]
+pub(crate) struct Sheet {
+    /// Template and the name of its file, as of `engine.toml`.
+    pub files: BTreeMap<String, String>,
+    pub context: Value,
+}
+
 impl Engine {
     /// The files that the templates make of what [`Engine::context`] returns, as JSON; by name.
     ///
@@ -20,19 +28,33 @@ impl Engine {
     /// A template fails, makes more than 32 MiB or, of a user's folder, takes longer than 10 s; two templates make one
     /// file; a file would lie outside of the folder that is written.
     pub fn render(&self, context: Value) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
+        let files = self.description.files.clone();
+        self.render_sheets(vec![Sheet { files, context }])
+    }
+
+    /// As [`Engine::render`], of several contexts.
+    pub(crate) fn render_sheets(&self, sheets: Vec<Sheet>) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
         match self.templates {
-            Some(_) => self.render_within_time(context),
-            None => self.render_now(&context),
+            Some(_) => self.render_within_time(sheets),
+            None => self.render_now(&sheets),
         }
     }
 
-    pub(crate) fn render_now(&self, context: &Value) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
-        let context = tera::Context::from_serialize(context).map_err(|e| self.description_error(e.to_string()))?;
+    pub(crate) fn render_now(&self, sheets: &[Sheet]) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
+        let mut made = BTreeMap::new();
+        for sheet in sheets {
+            self.render_sheet(sheet, &mut made)?;
+        }
+        Ok(made)
+    }
+
+    fn render_sheet(&self, sheet: &Sheet, made: &mut BTreeMap<String, Vec<u8>>) -> Result<(), EngineError> {
+        let context = tera::Context::from_serialize(&sheet.context);
+        let context = context.map_err(|e| self.description_error(e.to_string()))?;
         let mut tera = Tera::default();
         filters::register_filters(&mut tera);
         tera.autoescape_on(Vec::<&str>::new());
-        let mut made = BTreeMap::new();
-        for (template, file) in &self.description.files {
+        for (template, file) in &sheet.files {
             let failed = |error: tera::Error| EngineError::Template {
                 engine: self.name.clone(),
                 template: template.clone(),
@@ -59,7 +81,7 @@ impl Engine {
             }
             made.insert(name, text.0);
         }
-        Ok(made)
+        Ok(())
     }
 
     fn template(&self, name: &str) -> Option<&str> {

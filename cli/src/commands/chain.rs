@@ -1,12 +1,13 @@
 //! `emit` and `explain` of chains of passes.
 
-use super::emit::{check_name, for_engine};
+use super::emit::{check_name, engine_failure};
 use crate::args::{EmitArgs, ExplainArgs};
 use crate::failure::{Failure, format_count};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use straightline_codegen::chain::{Chain, CompiledChain, EmittedChain, PassPlan, PicturePlan};
 use straightline_codegen::{Format, ShaderSpec, files};
+use straightline_engines::{ChainRequest, Engine};
 use straightline_table::{Column, Table};
 
 /// Writes the shaders of a chain and its plan; prints the paths.
@@ -28,24 +29,22 @@ pub fn emit_chain(args: &EmitArgs, chain: &Chain) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the files for an engine, which takes a chain of which one pass is left.
+/// Returns the files for an engine.
 fn engine_files(
     args: &EmitArgs,
     chain: &Chain,
     (compiled, name): (&CompiledChain, &str),
     engine: &str,
 ) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
-    let [pass] = compiled.passes.as_slice() else {
-        return Err(Failure::Usage(format!(
-            "`{}` has {} passes, and the folder of `{engine}` takes one: fuse them with `--fuse all` where they can be, or \
-             emit them without --engine",
-            compiled.name,
-            compiled.passes.len()
-        )));
+    let options = chain.options()?;
+    let request = ChainRequest {
+        name: name.to_owned(),
+        emit: args.shader_spec().emit,
+        binds: args.bind.iter().cloned().collect(),
+        ..ChainRequest::new(compiled, &options)
     };
-    let binds = args.bind.iter().cloned().collect();
-    let request = (args.shader_spec().emit, binds);
-    for_engine(request, &chain.options()?, compiled.kernel_of(pass), engine, name)
+    let engine = Engine::find(engine).map_err(engine_failure)?;
+    engine.render_chain_files(&request).map_err(engine_failure)
 }
 
 /// Prints the passes of a chain, with what each reads and costs.

@@ -70,26 +70,30 @@ pub fn check_name(name: &str) -> Result<(), Failure> {
 }
 
 /// Returns the files for an engine.
-pub fn for_engine(
+fn for_engine(
     (emit, binds): (EmitOptions, BTreeMap<String, String>),
     options: &[OptionInfo],
     compiled: &Compiled,
     engine: &str,
     name: &str,
 ) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
-    let failure = |error| match error {
-        EngineError::Unknown { .. } => Failure::Usage(error.to_string()),
-        EngineError::Kernel(errors) => Failure::Kernel(errors),
-        error => Failure::from_error(error),
-    };
-    let engine = Engine::find(engine).map_err(failure)?;
+    let engine = Engine::find(engine).map_err(engine_failure)?;
     let request = Request {
         name: name.to_owned(),
         emit,
         binds,
         ..Request::new(compiled, options)
     };
-    engine.render_files(&request).map_err(failure)
+    engine.render_files(&request).map_err(engine_failure)
+}
+
+/// Returns the failure of an engine's error.
+pub fn engine_failure(error: EngineError) -> Failure {
+    match error {
+        EngineError::Unknown { .. } => Failure::Usage(error.to_string()),
+        EngineError::Kernel(errors) => Failure::Kernel(errors),
+        error => Failure::from_error(error),
+    }
 }
 
 fn write_all(args: &EmitArgs, compiled: &Compiled, named: &BTreeMap<String, Vec<u8>>) -> Result<Vec<PathBuf>, Failure> {

@@ -98,8 +98,22 @@ fn print_engine(name: &str, as_json: bool) -> Result<(), Failure> {
     let text = format!("{name}: {}: {}", description.title, description.about);
     outln!("{}", wrap_text(&text, WIDTH, "", "  "));
     print_meanings(description);
+    print_chains(description);
     outln!("\nstraightline emit KERNEL --engine {name} --out DIR");
     Ok(())
+}
+
+/// Prints whether an engine takes chains of several passes.
+fn print_chains(description: &Description) {
+    let text = match &description.chain {
+        None => "It takes one pass: a kernel, or a chain whose pictures are all fused.".to_owned(),
+        Some(chain) if chain.meanings.is_empty() => "It takes chains of several passes.".to_owned(),
+        Some(chain) => format!(
+            "It takes chains of several passes, and provides {} to them.",
+            chain.meanings.join(", ")
+        ),
+    };
+    outln!("\n{}", wrap_text(&text, WIDTH, "", ""));
 }
 
 /// Prints the inputs that an engine provides by meaning.
@@ -233,6 +247,7 @@ fn engine_json(engine: &Engine) -> Value {
     let provided: Vec<&str> = provided.map(|meaning| meaning.name).collect();
     json!({
         "name": engine.name(), "title": description.title, "about": description.about, "provides": provided,
+        "chains": description.chain.is_some(),
     })
 }
 

@@ -95,8 +95,13 @@ fn requests_that_mean_nothing_are_refused() {
     );
     fails(
         &["emit", &bloom(), "--engine", "godot", "--out", out],
-        2,
-        &["12 passes", "--fuse all"],
+        1,
+        &[
+            "E0801",
+            "`bloom` does not fit Godot: it has 12 passes, and Godot takes one",
+            "webgpu",
+            "--fuse all",
+        ],
     );
     fails(
         &["emit", &bloom(), "--fuse", "light", "--out", out],

@@ -3,6 +3,8 @@
 use super::spec::ChainSpec;
 use crate::compiled::Compiled;
 use std::collections::BTreeMap;
+use std::sync::Arc;
+use straightline_evaluator::diagnostic::{Diagnostic, Errors, File, Span};
 use straightline_evaluator::front::chain::{Picture, Source};
 use straightline_evaluator::ir::Graph;
 use straightline_manifest::Format;
@@ -14,6 +16,8 @@ pub struct CompiledChain {
     pub name: String,
     /// First sentence of its documentation.
     pub summary: String,
+    /// Options that are not at their defaults, with their values.
+    pub changed: Vec<(String, String)>,
     /// Textures, samplers and buffers that it takes.
     pub inputs: Vec<String>,
     /// Pictures that are stored, in the order in which they are drawn; of each, the pass of the same index.
@@ -29,6 +33,9 @@ pub struct CompiledChain {
     /// Pictures that could not be fused or would cost more so, each with the reason.
     pub kept: Vec<(String, String)>,
     pub(super) spec: ChainSpec,
+    pub(super) files: Arc<Vec<File>>,
+    /// Place of the function's name.
+    pub(super) span: Span,
 }
 
 /// A pass of a compiled chain.
@@ -56,6 +63,13 @@ impl CompiledPass {
 }
 
 impl CompiledChain {
+    /// Returns an error about the chain, located at its name.
+    pub fn locate_error(&self, mut error: Diagnostic) -> Errors {
+        error.span = Some(self.span);
+        error.label = "this chain".to_owned();
+        Errors::new(vec![error], &self.files)
+    }
+
     /// The kernel of a pass.
     pub fn kernel_of(&self, pass: &CompiledPass) -> &Compiled {
         &self.kernels[&pass.kernel]

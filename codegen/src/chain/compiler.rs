@@ -71,12 +71,15 @@ pub(super) fn compile_passes(
             .collect(),
         results: chain.results.iter().map(|index| stored(*index)).collect(),
         name: chain.name,
+        changed: Vec::new(),
         summary: first_sentence(&chain.docs),
         inputs: chain.inputs,
         passes,
         pictures,
         kernels,
         spec: spec.clone(),
+        files: Arc::clone(files),
+        span: chain.span,
     })
 }
 

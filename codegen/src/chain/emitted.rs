@@ -2,7 +2,7 @@
 
 use super::compiled::CompiledChain;
 use super::memory::{Life, assign_memory};
-use crate::emit::Emitted;
+use crate::emit::{EmitOptions, Emitted};
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::diagnostic::Errors;
 use straightline_evaluator::front::chain::Source;
@@ -67,12 +67,21 @@ impl CompiledChain {
     ///
     /// As of [`Compiled::emit`](crate::Compiled::emit), for each pass.
     pub fn emit(&self) -> Result<EmittedChain, Errors> {
+        self.emit_as(&self.spec.shader.emit)
+    }
+
+    /// As [`CompiledChain::emit`], with other options of the texts; each pass has its own format.
+    ///
+    /// # Errors
+    ///
+    /// As of [`CompiledChain::emit`].
+    pub fn emit_as(&self, emit: &EmitOptions) -> Result<EmittedChain, Errors> {
         let mut shaders: BTreeMap<String, EmittedPass> = BTreeMap::new();
         for pass in &self.passes {
             if shaders.contains_key(&pass.shader) {
                 continue;
             }
-            let options = self.spec.shader.emit.clone().format(pass.format);
+            let options = emit.clone().format(pass.format);
             let emitted = EmittedPass {
                 kernel: pass.kernel.clone(),
                 emitted: self.kernel_of(pass).emit(&options)?,

@@ -140,7 +140,20 @@ impl Chain {
     pub fn compile(&self, spec: &ChainSpec) -> Result<CompiledChain, Errors> {
         let options = self.option_values(&spec.shader.settings.options)?;
         let chain = deep(|| front::read_chain(&self.files, &self.name, &options))?;
-        compiler::compile_passes(&self.files, chain, &options, spec)
+        let mut compiled = compiler::compile_passes(&self.files, chain, &options, spec)?;
+        compiled.changed = self.changed_options(&spec.shader.settings.options)?;
+        Ok(compiled)
+    }
+
+    /// Options that are not at their defaults, with their values.
+    fn changed_options(&self, settings: &[OptionText]) -> Result<Vec<(String, String)>, Errors> {
+        let kernel = Kernel::options_of_chain(&self.files, &self.name);
+        let [values, defaults] = [kernel.option_values(settings)?, kernel.option_values(&[])?];
+        let changed = kernel.options()?.into_iter().filter_map(|info| {
+            let value = values.get(&info.name)?;
+            (defaults.get(&info.name) != Some(value)).then(|| (info.name, value.to_string()))
+        });
+        Ok(changed.collect())
     }
 
     /// Values of the options that decide what passes there are: all but floats, which only passes compute with.

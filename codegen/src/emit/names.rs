@@ -186,7 +186,12 @@ impl Scopes<'_> {
         let is_taken = |name: &str| self.taken.contains(name) || self.reserved.has(name);
         if is_taken(&name) {
             let from = self.numbers.get(&base).copied().unwrap_or(2);
-            let (numbered, next) = numbered_name(self.kernel, &base, from, is_taken)?;
+            // An engine may reserve all words with the name's prefix.
+            let stem = match self.reserved.has(&format!("{base}_{from}")) {
+                true => format!("v_{base}"),
+                false => base.clone(),
+            };
+            let (numbered, next) = numbered_name(self.kernel, &stem, from, is_taken)?;
             self.numbers.insert(base, next);
             name = numbered;
         }

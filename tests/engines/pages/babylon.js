@@ -27,7 +27,7 @@ export async function runOn(engineOf, { module, className, picture, filtered, in
     const textures = {};
     for (const [name, layers] of Object.entries(inputs)) {
         const texels = stacked(layers, width, height, true);
-        const how = name === filtered ? LINEAR : NEAREST;
+        const how = filtered.includes(name) ? LINEAR : NEAREST;
         textures[name] = layered.includes(name)
             ? new RawTexture2DArray(texels, width, height, layers.length, RGBA, scene, false, false, how, FLOAT)
             : new RawTexture(texels, width, height, RGBA, scene, false, false, how, FLOAT);

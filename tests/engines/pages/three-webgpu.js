@@ -1,8 +1,8 @@
 import * as THREE from "three/webgpu";
-import { texture } from "three/tsl";
+import { texture, uniform } from "three/tsl";
 import { stacked } from "./rows.js";
 
-export async function run({ modules, functionName, filtered, inputs, layered, uniforms, width, height }) {
+export async function run({ modules, functionName, filtered, inputs, layered, chain, sizes, uniforms, width, height }) {
     const { [functionName]: filter } = await import(modules.node);
     const renderer = new THREE.WebGPURenderer();
     await renderer.init();
@@ -10,18 +10,20 @@ export async function run({ modules, functionName, filtered, inputs, layered, un
     renderer.setSize(width, height, false);
     const nodes = {};
     for (const [name, layers] of Object.entries(inputs)) {
-        const texels = stacked(layers, width, height, false);
+        const [w, h] = sizes[name] ?? [width, height];
+        const texels = stacked(layers, w, h, false);
         const made = layered.includes(name)
-            ? new THREE.DataArrayTexture(texels, width, height, layers.length)
-            : new THREE.DataTexture(texels, width, height);
+            ? new THREE.DataArrayTexture(texels, w, h, layers.length)
+            : new THREE.DataTexture(texels, w, h);
         made.type = THREE.FloatType;
         made.format = THREE.RGBAFormat;
-        if (name === filtered) made.minFilter = made.magFilter = THREE.LinearFilter;
+        if (filtered.includes(name)) made.minFilter = made.magFilter = THREE.LinearFilter;
         made.needsUpdate = true;
         nodes[name] = texture(made);
     }
     const material = new THREE.NodeMaterial();
-    material.fragmentNode = filter({ ...nodes, ...uniforms });
+    const set = chain ? Object.fromEntries(Object.entries(uniforms).map(([name, value]) => [name, uniform(value)])) : uniforms;
+    material.fragmentNode = filter({ ...nodes, ...set });
     const target = new THREE.RenderTarget(width, height, { type: THREE.FloatType, depthBuffer: false });
     renderer.setRenderTarget(target);
     const quad = new THREE.QuadMesh(material);

@@ -1,14 +1,14 @@
 // How each engine is run: what is emitted is given to the engine itself, and its pixels are read back.
 
 import { execFileSync } from "node:child_process";
-import { appendFileSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { appendFileSync, copyFileSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { PNG } from "pngjs";
 import { turned } from "../pages/rows.js";
 import { pack } from "./godot.mjs";
-import { HEIGHT, WIDTH, inputs } from "./kernels.mjs";
+import { HEIGHT, WIDTH, inputs, sizeOf, tableSizes } from "./kernels.mjs";
 
 const here = dirname(dirname(fileURLToPath(import.meta.url)));
 const native = join(here, "native");
@@ -28,8 +28,10 @@ function page(name, files, bits = 32) {
             className,
             functionName,
             picture,
-            // The texture that the kernel reads through a sampler.
+            // Textures that the kernel reads through a sampler.
             filtered: kernel.filtered,
+            chain: kernel.chain ?? false,
+            sizes: tableSizes(kernel),
             layered: Object.keys(layers).filter((key) => layers[key].length > 1),
             inputs: Object.fromEntries(Object.entries(layers).map(([key, each]) => [key, each.map((_, k) => `/inputs/${kernel.name}-${key}-${k}.f32`)])),
             uniforms: kernel.uniforms,
@@ -45,16 +47,17 @@ function withPng(program) {
     return async (task) => {
         const from = join(task.folder, "in.png");
         const to = join(task.folder, "out.png");
-        writeFileSync(from, PNG.sync.write(png(inputs(task.kernel).color[0])));
+        const [width, height] = sizeOf(task.kernel, task.engine);
+        writeFileSync(from, PNG.sync.write(png(inputs(task.kernel, [width, height]).color[0], width, height)));
         program(task, from, to);
         const made = PNG.sync.read(readFileSync(to));
-        if (made.width !== WIDTH || made.height !== HEIGHT) throw new Error(`the picture has ${made.width}x${made.height} pixels`);
+        if (made.width !== width || made.height !== height) throw new Error(`the picture has ${made.width}x${made.height} pixels`);
         return { rgba: Float32Array.from(made.data, (value) => value / 255), bits: 8 };
     };
 }
 
-function png(rgba) {
-    const made = new PNG({ width: WIDTH, height: HEIGHT });
+function png(rgba, width = WIDTH, height = HEIGHT) {
+    const made = new PNG({ width, height });
     rgba.forEach((value, k) => { made.data[k] = Math.round(value * 255); });
     return made;
 }
@@ -81,6 +84,7 @@ const ffmpeg = withPng(({ folder }, from, to) => {
 
 const librashader = (program) => withPng(({ kernel, folder }, from, to) => {
     const preset = ending(folder, ".slangp");
+    for (const [name, table] of Object.entries(kernel.tables)) copyFileSync(join(root, table), join(folder, `${name}.png`));
     // A preset sets parameters as RetroArch's menu does.
     const values = Object.entries(kernel.uniforms).map(([name, value]) => `${name} = "${value}"`);
     if (values.length) appendFileSync(preset, `parameters = "${Object.keys(kernel.uniforms).join(";")}"\n${values.join("\n")}\n`);
@@ -141,7 +145,8 @@ export function scenePanda3d(folder, className, { fov, near, far, distance, slop
 /**
  * Name of the test, the engine that is emitted for, how it is run, and what it needs. Where uniforms are `fixed`, nothing here
  * can set them: the kernel is emitted with their values. `slack` is added to
- * the bound: libplacebo keeps pictures in floats of 16 bits between its steps.
+ * the bound: libplacebo keeps pictures in floats of 16 bits between its steps. `even` engines are given pictures of chains whose
+ * sizes their presets state without rounding.
  */
 export const ENGINES = [
     { name: "webgl2", engine: "webgl2", needs: ["chromium"], run: page("webgl2", (k) => ({ module: `${k}.js` })) },
@@ -159,7 +164,7 @@ export const ENGINES = [
     { name: "opengl", engine: "opengl", needs: ["cc"], run: opengl },
     { name: "panda3d", engine: "panda3d", needs: ["panda3d"], run: panda3d },
     { name: "mpv (libplacebo)", engine: "mpv", needs: ["ffmpeg"], fixed: true, slack: 2 ** -10, run: ffmpeg },
-    { name: "libretro (librashader)", engine: "libretro", needs: ["librashader"], run: librashader(process.env.LIBRASHADER ?? "librashader-cli") },
+    { name: "libretro (librashader)", engine: "libretro", needs: ["librashader"], even: true, run: librashader(process.env.LIBRASHADER ?? "librashader-cli") },
 ];
 
 /** Engines that render a scene of their own, and where `engine.toml` has row 0 of each of their shaders: above or below. */

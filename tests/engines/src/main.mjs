@@ -9,7 +9,7 @@ import { open } from "./browser.mjs";
 import { compare } from "./compare.mjs";
 import { ENGINES, PYTHON, UPRIGHT, scenePanda3d } from "./engines.mjs";
 import { readExr, writeExr } from "./exr.mjs";
-import { HEIGHT, KERNELS, WIDTH, inputs } from "./kernels.mjs";
+import { HEIGHT, KERNELS, WIDTH, inputs, sizeOf, tableSizes } from "./kernels.mjs";
 import { FILTERS, SCENE, SCENES } from "./scenes.mjs";
 
 const here = dirname(dirname(fileURLToPath(import.meta.url)));
@@ -47,21 +47,53 @@ function version({ program, version }) {
     return ran.status === 0 ? (ran.stdout || ran.stderr).split("\n")[0].trim() : null;
 }
 
-function emitted(kernel, { engine, fixed }, folder) {
-    const values = fixed ? Object.entries(kernel.uniforms).map(([name, value]) => `${name}=${value}`) : [];
-    const options = [...kernel.options.filter((option) => !fixed || !option.endsWith("=uniform")), ...values].flatMap((option) => ["--set", option]);
-    const ran = spawnSync(straightline, ["emit", kernel.kernel, ...options, "--engine", engine, "--name", kernel.name, "--out", folder],
-        { cwd: root, encoding: "utf8" });
-    return ran.status === 0 ? null : ran.stderr.trim().replace(/^error: /, "");
+/** A record with the rows of a run of some engines or kernels in it, in the order of a run of all. */
+function merged(kept, found) {
+    const orders = [[...ENGINES, ...SCENES], [...KERNELS, ...FILTERS]].map((all) => all.map(({ name }) => name));
+    const place = (row) => [row.engine, row.kernel].map((name, k) => orders[k].indexOf(name));
+    const order = (a, b) => place(a)[0] - place(b)[0] || place(a)[1] - place(b)[1];
+    const joined = (old, rows) => {
+        const isOld = ({ engine, kernel }) => !rows.some((row) => row.engine === engine && row.kernel === kernel);
+        return [...old.filter(isOld), ...rows.map(dated)].sort(order);
+    };
+    // A row states the versions of programs that have changed since the others were written.
+    const changed = Object.entries(found.versions).filter(([name, version]) => version && (kept.versions[name] ?? version) !== version);
+    const dated = (row) => {
+        const needs = ENGINES.find(({ name }) => name === row.engine)?.needs ?? ["chromium"];
+        const own = changed.filter(([name]) => row.state === "same" && needs.includes(name));
+        return own.length ? { ...row, versions: Object.fromEntries(own) } : row;
+    };
+    return {
+        versions: { ...found.versions, ...kept.versions },
+        rows: joined(kept.rows, found.rows),
+        scenes: joined(kept.scenes ?? [], found.scenes),
+    };
 }
 
-/** What the interpreter makes of a kernel. */
-function reference(kernel, work) {
+function emitted(kernel, { engine, fixed }, folder) {
+    // A chain of several passes fits none of them.
+    const values = fixed && !kernel.chain ? Object.entries(kernel.uniforms).map(([name, value]) => `${name}=${value}`) : [];
+    const options = [...kernel.options.filter((option) => !fixed || !option.endsWith("=uniform")), ...values].flatMap((option) => ["--set", option]);
+    const ran = spawnSync(straightline, ["emit", kernel.kernel, ...sourcesOf(kernel), ...options, "--engine", engine, "--name", kernel.name, "--out", folder],
+        { cwd: root, encoding: "utf8" });
+    if (ran.status === 0) return null;
+    const said = ran.stderr.trim().replace(/^error(\[\w+\])?: /, "");
+    // The lines after a refusal show its place.
+    return said.includes("does not fit") ? said.split("\n")[0] : said;
+}
+
+function sourcesOf({ sources }) {
+    return (sources ?? []).flatMap((file) => ["--source", file]);
+}
+
+/** What the interpreter makes of a kernel, of a picture of this size. */
+function reference(kernel, size, work) {
     const given = [];
-    for (const [name, layers] of Object.entries(inputs(kernel))) {
+    const sizes = tableSizes(kernel);
+    for (const [name, layers] of Object.entries(inputs(kernel, size))) {
         const files = layers.map((rgba, k) => {
             const stem = join(work, `${kernel.name}-${name}-${k}`);
-            writeExr(`${stem}.exr`, WIDTH, HEIGHT, rgba);
+            writeExr(`${stem}.exr`, ...(sizes[name] ?? size), rgba);
             writeFileSync(`${stem}.f32`, new Uint8Array(rgba.buffer));
             return `${stem}.exr`;
         });
@@ -70,7 +102,7 @@ function reference(kernel, work) {
     const options = kernel.options.flatMap((option) => ["--set", option]);
     const uniforms = Object.entries(kernel.uniforms).flatMap(([name, value]) => ["--uniform", `${name}=${value}`]);
     const out = join(work, `${kernel.name}.exr`);
-    execFileSync(straightline, ["run", kernel.kernel, ...options, ...uniforms, ...given, "--executor", "cpu", "--out", out],
+    execFileSync(straightline, ["run", kernel.kernel, ...sourcesOf(kernel), ...options, ...uniforms, ...given, "--executor", "cpu", "--out", out],
         { cwd: root, stdio: ["ignore", "ignore", "pipe"] });
     return readExr(out).rgba;
 }
@@ -85,16 +117,21 @@ try {
     for (const [name, program] of Object.entries(PROGRAMS)) versions[name] = version(program);
     const kernels = KERNELS.filter(({ name }) => !onlyKernel || name === onlyKernel);
     const references = {};
+    const engines = ENGINES.filter(({ name, engine }) => !only || name === only || engine === only);
     for (const kernel of kernels) {
-        // Kernels that need more than pictures fit no engine here, which is what is tested of them.
-        references[kernel.name] = kernel.refused ? null : reference(kernel, work);
+        // Kernels that need more than pictures fit no engine here, which is what is tested of them. The usual size comes last:
+        // its inputs are those that pages read.
+        const sizes = new Set([...engines.map((engine) => String(sizeOf(kernel, engine))), `${WIDTH},${HEIGHT}`]);
+        for (const size of kernel.refused ? [] : [...sizes].sort((a, b) => (b === String(kernel.even)) - (a === String(kernel.even)))) {
+            references[`${kernel.name} ${size}`] = reference(kernel, size.split(",").map(Number), work);
+        }
     }
     browser = versions.chromium && (await open(PROGRAMS.chromium.program, {
         pages: join(here, "pages"), modules: join(here, "node_modules"), emitted: work, inputs: work,
     }));
-    for (const engine of ENGINES.filter(({ name, engine }) => !only || name === only || engine === only)) {
+    for (const engine of engines) {
         for (const kernel of kernels) {
-            const result = await tried(engine, kernel, references[kernel.name]);
+            const result = await tried(engine, kernel, references[`${kernel.name} ${sizeOf(kernel, engine)}`]);
             rows.push({ engine: engine.name, kernel: kernel.name, ...result });
             if (!["same", "refused"].includes(result.state)) failed += 1;
             const figures = result.most === undefined ? "" : ` most ${result.most.toExponential(1)}, ${(100 * result.within).toFixed(2)} % within ${result.limit.toExponential(1)}`;
@@ -123,7 +160,9 @@ try {
 }
 if (record) {
     const lock = JSON.parse(readFileSync(join(here, "package.json"), "utf8"));
-    const text = JSON.stringify({ command: "tests/engines/run --record=FILE", size: [WIDTH, HEIGHT], versions: { ...versions, ...lock.dependencies }, rows, scenes }, null, 1);
+    const found = { versions: { ...versions, ...lock.dependencies }, rows, scenes };
+    const kept = only || onlyKernel ? JSON.parse(readFileSync(record, "utf8")) : { versions: {}, rows: [], scenes: [] };
+    const text = JSON.stringify({ command: "tests/engines/run --record=FILE", size: [WIDTH, HEIGHT], ...merged(kept, found) }, null, 1);
     mkdirSync(dirname(record), { recursive: true });
     writeFileSync(record, `${text}\n`);
 }
@@ -179,7 +218,7 @@ async function tried(engine, kernel, expected) {
         const className = kernel.name.split("_").map((word) => word[0].toUpperCase() + word.slice(1)).join("");
         const functionName = kernel.kernel.split("/").at(-1).replace(".rs", "");
         const { rgba, bits } = await engine.run({
-            kernel, folder, browser, className, functionName, picture: "color", url: `/emitted/${engine.engine}-${kernel.name}`,
+            engine, kernel, folder, browser, className, functionName, picture: "color", url: `/emitted/${engine.engine}-${kernel.name}`,
         });
         const found = compare(rgba, expected, bits, kernel.bound + (engine.slack ?? 0));
         return { state: found.within >= kernel.share ? "same" : "differs", ...found };

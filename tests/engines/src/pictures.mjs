@@ -13,16 +13,16 @@ function sequence(seed) {
 }
 
 /** A picture of stripes, discs and noise, RGBA, rows from above; levels of 8 bits, so that every engine can be given it exactly. */
-export function picture() {
+export function picture([width, height]) {
     const random = sequence(1);
-    const rgba = new Float32Array(4 * WIDTH * HEIGHT);
-    for (let y = 0; y < HEIGHT; y++) {
-        for (let x = 0; x < WIDTH; x++) {
+    const rgba = new Float32Array(4 * width * height);
+    for (let y = 0; y < height; y++) {
+        for (let x = 0; x < width; x++) {
             const disc = Math.hypot(x - 20, y - 14) < 9 ? 0.8 : 0.1;
             const stripe = (x + 2 * y) % 11 < 4 ? 0.6 : 0.25;
             const noise = 0.2 * random();
-            const texel = [disc + noise * 0.5, stripe + noise, 0.1 + 0.8 * (y / HEIGHT), 1];
-            texel.forEach((value, c) => { rgba[4 * (y * WIDTH + x) + c] = Math.round(Math.min(value, 1) * 255) / 255; });
+            const texel = [disc + noise * 0.5, stripe + noise, 0.1 + 0.8 * (y / height), 1];
+            texel.forEach((value, c) => { rgba[4 * (y * width + x) + c] = Math.round(Math.min(value, 1) * 255) / 255; });
         }
     }
     return rgba;

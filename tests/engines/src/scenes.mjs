@@ -53,9 +53,23 @@ function foggy({ parallel, opaque }) {
     return rgba;
 }
 
+/** The picture of half the size of `kernels/halves.rs`: the place of its pixel that each pixel reads, and its width and height. */
+function halves() {
+    const [w, h] = [WIDTH, HEIGHT].map((side) => Math.floor(side / 2));
+    const rgba = new Float32Array(4 * WIDTH * HEIGHT);
+    for (let y = 0; y < HEIGHT; y++) {
+        for (let x = 0; x < WIDTH; x++) {
+            const place = [Math.min(x >> 1, w - 1), Math.min(y >> 1, h - 1)];
+            rgba.set([...place, w + SCENE.color[0], h], 4 * (y * WIDTH + x));
+        }
+    }
+    return rgba;
+}
+
 /** The kernels, the picture that each has to make, and the engines that have what it reads. */
 export const FILTERS = [
     { name: "fog", expected: foggy, engines: SCENES.map(({ name }) => name) },
     { name: "grid", expected: places, engines: SCENES.map(({ name }) => name) },
     { name: "lens", expected: planes, engines: SCENES.map(({ name }) => name).filter((name) => /^(three|babylon)/.test(name)) },
+    { name: "halves", expected: halves, engines: SCENES.map(({ name }) => name).filter((name) => /^three/.test(name)) },
 ];

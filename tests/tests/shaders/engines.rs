@@ -4,6 +4,7 @@
 //!
 //! `STRAIGHTLINE_BLESS=1` writes the current output.
 
+mod chains;
 mod code;
 mod hostile;
 mod meanings;

@@ -11,7 +11,7 @@ use straightline_engines::{Engine, Request, engine_names};
 
 /// Documentation that would end a comment or a string, go on in the next line, be a tag of a template or too long, in some
 /// language.
-const HOSTILE: [&str; 9] = [
+pub const HOSTILE: [&str; 9] = [
     r"Title */ pwned(); /* \",
     r##"doc */ pwned(); // ` ${pwned()} """; pwned() \"##,
     "line\u{2028}pwned()\rpwned()\u{85}pwned()\u{b}pwned()\u{c}pwned()\u{2029}pwned()\npwned() \\",

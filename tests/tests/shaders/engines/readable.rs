@@ -60,6 +60,54 @@ pub fn check(engine: &str, files: &Files) -> Result<usize, String> {
     Ok(1)
 }
 
+/// Has the shaders of a chain's folder read; says how many there are.
+///
+/// # Errors
+///
+/// As of [`check`].
+pub fn check_chain(engine: &str, files: &Files) -> Result<usize, String> {
+    let ending = |end: &str| {
+        let found = files.iter().find(|(name, _)| name.ends_with(end));
+        found.map(|(_, text)| text.as_str()).ok_or(format!("no file *{end}"))
+    };
+    let mut count = 0;
+    match engine {
+        "webgpu" => {
+            let vertex = literal(ending(".js")?, "VERTEX")?;
+            for text in all_between(ending(".js")?, "        code: `", "`,\n")? {
+                wgsl(&format!("{vertex}{text}"))?;
+                count += 1;
+            }
+        }
+        "three" => {
+            for text in all_between(ending("-pass.js")?, "    `\n", "`,\n")? {
+                essl(&format!("#version 300 es\n{text}"))?;
+                count += 1;
+            }
+            for text in all_between(ending("-node.js")?, "    wgslFn(`", "`),\n")? {
+                wgsl(&text)?;
+                count += 1;
+            }
+        }
+        "libretro" => {
+            for (_, text) in files.iter().filter(|(name, _)| name.ends_with(".slang")) {
+                slang(text)?;
+                count += 1;
+            }
+        }
+        other => return Err(format!("`{other}` takes no chains")),
+    }
+    Ok(count)
+}
+
+/// Every text between two others.
+fn all_between(text: &str, before: &str, behind: &str) -> Result<Vec<String>, String> {
+    let parts = text.split(before).skip(1);
+    parts
+        .map(|part| between(&format!("{before}{part}"), before, behind))
+        .collect()
+}
+
 /// Text between two others, the last of which ends it first.
 fn between(text: &str, before: &str, behind: &str) -> Result<String, String> {
     let rest = text.split_once(before).ok_or(format!("no `{before}`"))?.1;
