@@ -534,7 +534,10 @@ impl Items {
             errors.extend(self.errors.get(name).into_iter().flatten().cloned());
         }
         if whole {
-            let others = self.implementation_errors.drain(..).filter(|error| !errors.contains(error));
+            let others = self
+                .implementation_errors
+                .drain(..)
+                .filter(|error| !errors.contains(error));
             let others: Vec<Diagnostic> = others.collect();
             errors.extend(others);
         }

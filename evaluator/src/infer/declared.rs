@@ -95,7 +95,9 @@ impl<'l> Checker<'l> {
 
     /// Checks the parameters of an `impl` against those of its structure or enum.
     pub fn check_owner(&mut self, function: &'l Function) {
-        let Some(Type::Name(name, args)) = &function.of else { return };
+        let Some(Type::Name(name, args)) = &function.of else {
+            return;
+        };
         let library = self.library;
         let of_struct = library.structs.get(name).map(|of| (&of.generics, &of.functions));
         let of_enum = || library.enums.get(name).map(|of| (&of.generics, &of.functions));

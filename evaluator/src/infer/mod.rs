@@ -130,7 +130,11 @@ fn infer_items(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Ve
         for (_, ty, span) in fields {
             // A type that the kernel does not reach may hold anything.
             let mut unreached = Vec::new();
-            let errors = if reached.contains(name) { &mut errors } else { &mut unreached };
+            let errors = if reached.contains(name) {
+                &mut errors
+            } else {
+                &mut unreached
+            };
             infer_item(library, &mut known, errors, |checker| {
                 checker.declare_generics(generics, *span);
                 checker.check_array_lengths(ty);
