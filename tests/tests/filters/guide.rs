@@ -543,6 +543,9 @@ fn a_guide_that_knows_more_lights_is_better() {
         assert!(all.is_sorted_by(|less, more| *more > less - 0.05), "{all:?}");
         // Of what the simplest guide leaves below supersampling, the lights close more than half.
         let left = |guided: f64| best - guided;
-        assert!(all[0] > none - 0.2 && left(all[4]) < 0.5 * left(all[0]), "without {none}: {all:?}, of {best}");
+        assert!(
+            all[0] > none - 0.2 && left(all[4]) < 0.5 * left(all[0]),
+            "without {none}: {all:?}, of {best}"
+        );
     }
 }
