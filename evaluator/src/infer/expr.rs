@@ -70,6 +70,7 @@ impl<'l> Checker<'l> {
             (Ty::Float, other) if self.table.variable_kind(other) == Some(Kind::Integer) => {
                 "write a float: `1.0`, or convert with `as f32`".to_owned()
             }
+            (Ty::Float, Ty::Bool) => "choose by it: `if condition { 1.0 } else { 0.0 }`".to_owned(),
             (wanted, found) if number(wanted) && (number(found) || *found == Ty::Bool) => {
                 format!("convert it with `as {wanted}`")
             }
