@@ -1,6 +1,7 @@
 //! Searches for random kernels on which two executions disagree, and for texts that crash the front end. Prints the first
 //! one, minimised, and exits with 1.
 
+mod chains;
 mod driver;
 mod kernels;
 mod languages;
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         return ExitCode::FAILURE;
     }
     let outcome = kernels::against_rustc(&options)
+        .and_then(|()| chains::against_rustc(&options))
         .and_then(|()| driver::on_driver(&options))
         .and_then(|()| languages::languages(&options))
         .and_then(|()| mistakes::mistakes(&options))

@@ -6,7 +6,7 @@ use straightline_tests::random::oracle::Ways;
 /// Options and their defaults.
 pub const USAGE: &str = "\
 usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATURE]... [--accepts N] [--gpu N]
-             [--gpu-languages] [--languages N] [--world W] [--front-minutes M] [--keep-going] [--print]
+             [--chains N] [--gpu-languages] [--languages N] [--world W] [--front-minutes M] [--keep-going] [--print]
   --kernels N        random kernels to compare with what rustc makes of them (1000)
   --seed S           number of the first (1)
   --threads T        threads (one for each core)
@@ -14,6 +14,7 @@ usage: agree [--kernels N] [--seed S] [--threads T] [--batch N] [--without FEATU
   --batch N          kernels that rustc compiles at once (400)
   --without FEATURE  leave out a group of constructs
   --accepts N        kernels with a mistake in them, which rustc and the generator must both refuse (0)
+  --chains N         random chains of passes to compare with what rustc makes of them, stored, fused and looped (0)
   --gpu N            random kernels to run on a Vulkan adapter, against rustc (0)
   --gpu-languages    run each in one of the forms, as WGSL and as GLSL, instead of in all of them as WGSL
   --languages N      random kernels to emit in every language, each in one form, for the languages' compilers to read (0)
@@ -37,6 +38,8 @@ pub struct Options {
     pub features: Features,
     /// Kernels with a mistake in them.
     pub accepts: u64,
+    /// Random chains to compare with rustc.
+    pub chains: u64,
     /// Random kernels to run on a Vulkan adapter.
     pub gpu: u64,
     /// Ways in which each kernel is compiled and run.
@@ -61,6 +64,7 @@ pub fn options() -> Option<Options> {
         world: None,
         features: Features::all(),
         accepts: 0,
+        chains: 0,
         gpu: 0,
         ways: Ways::Forms,
         languages: 0,
@@ -78,6 +82,7 @@ pub fn options() -> Option<Options> {
             "--batch" => options.batch = words.next()?.parse().ok().filter(|n| *n > 0)?,
             "--without" => options.features = options.features.without(Features::named(&words.next()?)?),
             "--accepts" => options.accepts = words.next()?.parse().ok()?,
+            "--chains" => options.chains = words.next()?.parse().ok()?,
             "--gpu" => options.gpu = words.next()?.parse().ok()?,
             "--gpu-languages" => options.ways = Ways::Languages,
             "--languages" => options.languages = words.next()?.parse().ok()?,
