@@ -120,7 +120,7 @@ const TEXTURES = [
 // Passes in the order in which they run. Each reads inputs by their names and textures by their numbers.
 const PASSES = [
     { label: "light", shader: 0, reads: { color: "color" }, texture: 0 },
-    { label: "result", shader: 1, reads: { linear: "linear", color: "color", glow: 0 }, target: 0 },
+    { label: "result", shader: 1, reads: { color: "color", glow: 0, linear: "linear" }, target: 0 },
 ];
 
 // Samplers unless the caller gives others, by their types.
