@@ -433,6 +433,8 @@ impl Items {
             stands: HashMap::new(),
             functions: std::mem::take(&mut lower.functions),
         };
+        let place = lower.token_span(item.self_ty.span());
+        self.library.owners.push((ty.clone(), of.generics.clone(), place));
         if let Some(default) = &item.modifiers.defaultness {
             check.refuse(default.span(), "`default`", "leave it out");
         }

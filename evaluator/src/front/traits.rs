@@ -242,6 +242,8 @@ impl Items {
             functions: lower.functions.clone(),
         };
         self.library.implements.insert((of.clone(), trait_name.clone()));
+        let place = lower.token_span(item.self_ty.span());
+        self.library.owners.push((ty.clone(), owner.generics.clone(), place));
         let mut errors = lower.errors;
         errors.extend(check.into_errors());
         let given: BTreeSet<String> = item.items.iter().filter_map(item_name).collect();

@@ -579,6 +579,8 @@ pub struct Library {
     pub implemented: FxHashMap<String, Vec<Implemented>>,
     /// Types and traits that they implement.
     pub implements: FxHashSet<(String, String)>,
+    /// Type, generic parameters and place of each implementation.
+    pub owners: Vec<(Type, Vec<Generic>, Span)>,
     /// Associated types, by the type that has them and their name.
     pub associated: FxHashMap<(String, String), Type>,
     /// Purposes of the functions of the kernel's files, in order of their places.

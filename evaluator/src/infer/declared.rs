@@ -46,6 +46,20 @@ pub fn check_declared(library: &Library, reached: &BTreeSet<String>, errors: &mu
     }
 }
 
+/// Notes implementations whose parameters are not those of their structures or enums, of the types that are `looked_at`.
+pub fn check_owners(library: &Library, looked_at: impl Fn(&str) -> bool, errors: &mut Vec<Diagnostic>) {
+    for (of, generics, span) in &library.owners {
+        if let Type::Name(name, args) = of
+            && looked_at(name)
+        {
+            infer_item(library, &mut Known::default(), errors, |checker| {
+                checker.declare_generics(generics, *span);
+                checker.check_owner((name, args), generics, *span);
+            });
+        }
+    }
+}
+
 impl<'l> Checker<'l> {
     /// Of functions with type parameters calls alone tell.
     fn as_declared(&mut self, (of, declared): (&str, &'l Function), (ty, function): (&str, &'l Function), name: &str) {
@@ -94,10 +108,7 @@ impl<'l> Checker<'l> {
     }
 
     /// Checks the parameters of an `impl` against those of its structure or enum.
-    pub fn check_owner(&mut self, function: &'l Function) {
-        let Some(Type::Name(name, args)) = &function.of else {
-            return;
-        };
+    fn check_owner(&mut self, (name, args): (&str, &'l [Type]), own: &'l [Generic], span: Span) {
         let library = self.library;
         let of_struct = library.structs.get(name).map(|of| (&of.generics, &of.functions));
         let of_enum = || library.enums.get(name).map(|of| (&of.generics, &of.functions));
@@ -105,21 +116,21 @@ impl<'l> Checker<'l> {
             return;
         };
         let constant = |arg: &Type| {
-            function.generics.iter().find_map(|generic| match generic {
-                Generic::Const(own, ty) if arg.is_parameter(own) => Some(ty),
+            own.iter().find_map(|generic| match generic {
+                Generic::Const(name, ty) if arg.is_parameter(name) => Some(ty),
                 _ => None,
             })
         };
         let mut unlike = None;
         for (generic, arg) in generics.iter().zip(args) {
             if let (Generic::Const(_, declared), Some(given)) = (generic, constant(arg)) {
-                let differs = self.type_difference(declared, given, &HashMap::new(), function.span);
+                let differs = self.type_difference(declared, given, &HashMap::new(), span);
                 unlike = unlike.or(differs);
             }
         }
         let args = args
             .iter()
-            .map(|arg| self.quietly(|c| c.substitute_type(arg, &HashMap::new(), function.span)));
+            .map(|arg| self.quietly(|c| c.substitute_type(arg, &HashMap::new(), span)));
         let args: Vec<Ty> = args.collect();
         if let Some((found, wanted)) = self.call_arguments(generics, functions, &args) {
             unlike = unlike.or_else(|| Some((self.table.resolve_deep(&wanted), self.table.resolve_deep(&found))));
@@ -128,7 +139,7 @@ impl<'l> Checker<'l> {
             self.errors.push(
                 Diagnostic::error_at(
                     Code::MismatchedTypes,
-                    function.span,
+                    span,
                     format!("the parameters of this `impl` are not those of `{name}`: one is `{found}`"),
                 )
                 .label(format!("expected `{wanted}`"))

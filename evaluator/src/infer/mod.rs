@@ -23,7 +23,7 @@ mod traits;
 mod types;
 
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Const, Expr, Function, Generic, IntType, Library};
+use crate::front::tree::{Const, Expr, Fields, Function, Generic, IntType, Library};
 use std::collections::{BTreeSet, HashMap};
 use types::{Kind, Table, Ty};
 
@@ -97,6 +97,15 @@ pub fn check_others(library: &Library, others: &BTreeSet<String>, unknown_names:
             }
         });
     }
+    declared::check_owners(library, |_| true, &mut errors);
+    for (_, generics, fields) in fields_of_types(library) {
+        for (_, ty, span) in fields {
+            infer_item(library, &mut Known::default(), &mut errors, |checker| {
+                checker.declare_generics(generics, *span);
+                checker.check_array_lengths(ty);
+            });
+        }
+    }
     errors.retain(|error| {
         let is_in = |codes: &[Code]| error.code().is_some_and(|code| codes.contains(&code));
         is_in(&OF_RUST) || !unknown_names && is_in(&OF_NAMES)
@@ -120,13 +129,9 @@ fn infer_items(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Ve
         }
     }
     declared::check_declared(library, reached, &mut errors);
+    declared::check_owners(library, |of| reached.contains(of), &mut errors);
     let mut known = Known::default();
-    let of_structures = library.structs.iter().map(|(name, s)| (name, &s.generics, &s.fields));
-    let variants = library
-        .enums
-        .iter()
-        .flat_map(|(name, e)| e.variants.iter().map(move |v| (name, &e.generics, &v.fields)));
-    for (name, generics, fields) in of_structures.chain(variants) {
+    for (name, generics, fields) in fields_of_types(library) {
         for (_, ty, span) in fields {
             // A type that the kernel does not reach may hold anything.
             let mut unreached = Vec::new();
@@ -159,6 +164,17 @@ fn infer_items(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Ve
     }
     items.insert(String::new(), known);
     (items, errors)
+}
+
+/// Fields of structures and of the variants of enums, with the name and the generic parameters of each type.
+fn fields_of_types(library: &Library) -> impl Iterator<Item = (&String, &[Generic], &Fields)> {
+    let structs = library.structs.iter();
+    let structs = structs.map(|(name, s)| (name, s.generics.as_slice(), &s.fields));
+    let variants = library.enums.iter().flat_map(|(name, e)| {
+        let variants = e.variants.iter();
+        variants.map(move |variant| (name, e.generics.as_slice(), &variant.fields))
+    });
+    structs.chain(variants)
 }
 
 /// Looks at one item by itself.
@@ -265,7 +281,6 @@ impl<'l> Checker<'l> {
     fn check_function(&mut self, function: &'l Function) {
         self.bounds = Some(&function.bounds);
         self.declare_generics(&function.generics, function.span);
-        self.check_owner(function);
         for name in function.bounds.keys().filter(|name| name.starts_with("dyn ")) {
             self.check_trait_object(name, function.span);
         }
