@@ -169,13 +169,13 @@ fn reads_what_it_needs(manifest: &Manifest, wgsl: &str) {
 }
 
 #[test]
-fn a_flat_scene_needs_no_normals_and_creases_need_them() {
+fn terrain_needs_no_normals_and_creases_need_them() {
     let budget = question(ErrorMetric::Psnr, 1.0);
-    let floor = tuned(subject("floor"), &budget);
-    let (manifest, wgsl) = emitted(&floor);
-    check("floor", &floor.record, &manifest, &wgsl);
+    let terrain = tuned(subject("terrain"), &budget);
+    let (manifest, wgsl) = emitted(&terrain);
+    check("terrain", &terrain.record, &manifest, &wgsl);
     reads_what_it_needs(&manifest, &wgsl);
-    assert!(does_without_normals(&floor.record));
+    assert!(does_without_normals(&terrain.record));
 
     let creases = tuned(subject("creases"), &budget);
     let (manifest, wgsl) = emitted(&creases);
