@@ -41,6 +41,7 @@ pub struct ChainForms {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChainsRecord {
     /// Circumstances of the run.
+    #[serde(flatten)]
     pub circumstances: Circumstances,
     /// The chains.
     pub chains: Vec<ChainForms>,

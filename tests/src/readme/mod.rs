@@ -5,6 +5,7 @@
 
 mod alive;
 mod budget;
+mod chains;
 mod crates;
 mod encode;
 mod fast;
@@ -117,6 +118,7 @@ fn table(name: &str, files: &[&Path]) -> Result<Table, String> {
         "table2" => budget::frames(files),
         "speedups" => budget::speedups(files),
         "quads" => Ok(quads::ways(&read(files, 0)?)),
+        "chains" => Ok(chains::forms(&read_all(files)?)),
         "encode" => encode::ways(files),
         "crates" => crates::needs(files),
         "sweep" => sweep::factors(&read(files, 0)?),
