@@ -42,7 +42,7 @@ pub struct ChainRequest<'a> {
     /// Options of the emitted texts; the engine's own choices ([`FIXED`](crate::FIXED)) override them, and each pass has its
     /// own format.
     pub emit: EmitOptions,
-    /// Meaning of an input by its name in the chain, as of [`Request`](crate::Request).
+    /// Meaning of an input by its name in the chain, as of [`Request`].
     pub binds: BTreeMap<String, String>,
 }
 
