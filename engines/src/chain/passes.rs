@@ -22,9 +22,9 @@ pub struct Passes<'c> {
     pub request: &'c ChainRequest<'c>,
     /// The chain as it is emitted for any engine of this stage.
     pub emitted: &'c EmittedChain,
-    /// What the caller binds.
+    /// Bindings of the caller.
     pub bound: &'c Manifest,
-    /// What the engine provides of it.
+    /// Inputs among them that the engine provides.
     pub inputs: &'c Inputs,
 }
 

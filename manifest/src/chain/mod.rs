@@ -141,7 +141,7 @@ impl SizeRule {
     ///
     /// # Errors
     ///
-    /// Those of `of`; terms that leave no value or several on the stack, or are too many. The generator writes none such.
+    /// Errors of `of`; terms that leave no value or several on the stack, or are too many. The generator writes none such.
     pub fn fold<T>(
         &self,
         mut of: impl FnMut(&str) -> Result<T, BadRule>,
