@@ -2,10 +2,8 @@
 
 use super::gpu::Uploaded;
 use super::{Bench, ExecuteError, Inputs, Work, Written, picture_size};
-use std::collections::BTreeMap;
 use std::time::Duration;
 use straightline_codegen::chain::EmittedChain;
-use straightline_manifest::{Binding, BindingKind};
 use straightline_runtime::{BoundChain, Chain, PassOptions, Shader};
 
 impl Bench {
@@ -31,22 +29,7 @@ impl Bench {
     ///
     /// If something is missing, or the device refuses it.
     pub fn upload_for_chain(&self, emitted: &EmittedChain, inputs: &Inputs) -> Result<Uploaded, ExecuteError> {
-        let mut resources: BTreeMap<&str, Binding> = BTreeMap::new();
-        let mut all: Vec<Binding> = Vec::new();
-        for pass in emitted.plan.passes.iter() {
-            let bindings = &emitted.shaders[&*pass.shader].emitted.manifest.bindings;
-            let given = |from: &str| emitted.plan.inputs.iter().any(|input| input == from);
-            for read in pass.reads.iter().filter(|read| given(&read.from)) {
-                if let Some(found) = bindings.iter().find(|binding| *binding.name == *read.name) {
-                    let name = read.from.to_string();
-                    let renamed = || Binding { name, ..found.clone() };
-                    widen(resources.entry(&read.from).or_insert_with(renamed), found);
-                }
-            }
-            all.extend(bindings.iter().filter_map(without_frame_size));
-        }
-        all.extend(resources.into_values());
-        self.upload_bindings(&all, inputs, &Uploaded::default())
+        self.upload_bindings(&emitted.bindings(), inputs, &Uploaded::default())
     }
 
     /// A chain with its inputs, targets and the textures between its passes.
@@ -106,24 +89,5 @@ impl Bench {
             }
             Ok(())
         })
-    }
-}
-
-/// A uniform struct without the size of the frame, which each pass has from its targets; `None` of other bindings.
-fn without_frame_size(binding: &Binding) -> Option<Binding> {
-    let mut binding = binding.clone();
-    match &mut binding.kind {
-        BindingKind::Uniform { fields, .. } => fields.retain(|field| !field.frame_size),
-        _ => return None,
-    }
-    Some(binding)
-}
-
-/// Lets the texture of `binding` have as many components as `other` reads.
-fn widen(binding: &mut Binding, other: &Binding) {
-    if let (BindingKind::Texture { components, .. }, BindingKind::Texture { components: more, .. }) =
-        (&mut binding.kind, &other.kind)
-    {
-        *components = (*components).max(*more);
     }
 }

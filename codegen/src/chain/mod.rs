@@ -22,6 +22,7 @@
 //! # Ok::<(), straightline_codegen::diagnostic::Errors>(())
 //! ```
 
+mod bindings;
 mod compiled;
 mod compiler;
 mod emitted;

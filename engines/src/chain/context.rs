@@ -48,8 +48,8 @@ pub struct ChainContext {
     pub meanings: BTreeMap<&'static str, bool>,
     /// Numbers that the picture's width and height are multiples of if all scales are to be exact.
     pub multiple: Option<[u32; 2]>,
-    /// Shaders, of which several passes can have one.
-    pub shaders: Vec<PassShaderContext>,
+    /// Shaders, each as the kernel that it is, in files of its own name. Several passes can have one.
+    pub shaders: Vec<Context>,
     /// Passes in the order in which they run.
     pub passes: Vec<PassContext>,
     /// Textures between the passes, by number.
@@ -66,14 +66,6 @@ pub struct ChainTextureContext {
     pub texture: TextureContext,
     /// True if the size of a picture depends on its size.
     pub sized: bool,
-}
-
-/// A shader of passes.
-#[derive(Clone, Debug, Serialize)]
-pub struct PassShaderContext {
-    /// The shader as the kernel that it is; its `name` is that of the shader.
-    #[serde(flatten)]
-    pub kernel: Context,
 }
 
 /// A pass.
@@ -153,7 +145,7 @@ impl ChainContext {
     /// Chooses the names of textures and uniforms beside the shaders: those that a shader has for them, each once.
     pub(super) fn name_inputs(&mut self, words: [&BTreeSet<String>; 2]) {
         let [of_engine, of_textures] = words;
-        let functions = self.shaders.iter().flat_map(|shader| shader.kernel.shaders.values());
+        let functions = self.shaders.iter().flat_map(|shader| shader.shaders.values());
         let mut taken: BTreeSet<String> = functions.map(|text| text.function.clone()).collect();
         let nothing = BTreeSet::new();
         let mut spelled: BTreeMap<String, String> = BTreeMap::new();
@@ -162,7 +154,7 @@ impl ChainContext {
             let own_name = |pass: &PassContext| {
                 let mut reads = pass.reads.iter();
                 let (own, _) = reads.find(|(_, source)| source.input && source.name == *name)?;
-                let textures = &self.shaders.get(pass.shader)?.kernel.textures;
+                let textures = &self.shaders.get(pass.shader)?.textures;
                 Some(textures.iter().find(|known| known.name == *own)?.spelled.clone())
             };
             let wanted = self.passes.iter().find_map(own_name).unwrap_or_else(|| name.clone());
@@ -170,7 +162,7 @@ impl ChainContext {
             spelled.insert(name.clone(), texture.texture.spelled.clone());
         }
         for uniform in &mut self.uniforms {
-            let mut all = self.shaders.iter().flat_map(|shader| &shader.kernel.uniforms);
+            let mut all = self.shaders.iter().flat_map(|shader| &shader.uniforms);
             let wanted = all.find(|known| known.name == uniform.name);
             let wanted = wanted.map_or(&uniform.name, |known| &known.spelled).clone();
             uniform.spelled = free_name(&wanted, &mut taken, [of_engine, &nothing]);
@@ -186,7 +178,7 @@ impl ChainContext {
                     source.spelled.clone_from(name);
                 }
             }
-            let own = self.shaders.get(pass.shader).map(|shader| &shader.kernel.uniforms);
+            let own = self.shaders.get(pass.shader).map(|shader| &shader.uniforms);
             let is_own = |uniform: &&UniformContext| own.is_some_and(|own| own.iter().any(|o| o.name == uniform.name));
             pass.uniforms = self.uniforms.iter().filter(is_own).cloned().collect();
         }

@@ -10,7 +10,7 @@ mod passes;
 mod scale;
 mod size;
 
-pub use context::{ChainContext, ChainTextureContext, MemoryContext, PassContext, PassShaderContext, SourceContext};
+pub use context::{ChainContext, ChainTextureContext, MemoryContext, PassContext, SourceContext};
 pub use description::{ChainDescription, SizeForm};
 pub use scale::ScaleContext;
 
@@ -173,7 +173,7 @@ impl Engine {
         context.results = passes.result_contexts(&shaders);
         context.memory = passes.memory_contexts(&shaders);
         let last = context.passes.iter().rfind(|pass| pass.result.is_some());
-        let last = last.and_then(|pass| shaders.get(pass.shader)?.kernel.shaders.values().next_back());
+        let last = last.and_then(|pass| shaders.get(pass.shader)?.shaders.values().next_back());
         context.function = last.map_or_else(|| request.compiled.name.clone(), |text| text.function.clone());
         context.shaders = shaders;
         context.name_inputs([&self.description().words, &chain.words]);
@@ -192,7 +192,7 @@ impl Engine {
         let textures = kernel_context::texture_contexts(bound, inputs);
         let (mut uniforms, _) = kernel_context::uniform_contexts(bound, request.options);
         uniforms.retain(|uniform| inputs.meaning(&uniform.of).is_none());
-        let sized = bound::sized_inputs(emitted);
+        let sized = emitted.sized_inputs();
         let textures = textures.into_iter().map(|texture| ChainTextureContext {
             sized: sized.contains(texture.name.as_str()),
             texture,

@@ -1,9 +1,10 @@
 //! The passes of a chain, each as a kernel of the engine, with what it reads and draws.
 
-use super::context::{MemoryContext, PassContext, PassShaderContext, SourceContext};
+use super::context::{MemoryContext, PassContext, SourceContext};
 use super::description::{ChainDescription, SizeForm};
 use super::scale::{Scales, drawn_size};
 use super::{ChainRequest, size};
+use crate::context::Context;
 use crate::engine::{Engine, Request, Unfit};
 use crate::fits::Misfit;
 use crate::inputs::{Inputs, whole_name};
@@ -44,11 +45,11 @@ impl Passes<'_> {
     }
 
     /// Emits each shader once.
-    pub fn shader_contexts(&self) -> Result<Vec<PassShaderContext>, Unfit> {
+    pub fn shader_contexts(&self) -> Result<Vec<Context>, Unfit> {
         // Pictures of earlier passes are textures too.
         let mut engine = self.engine.clone();
         engine.description.limits.own_textures = None;
-        let mut contexts: Vec<PassShaderContext> = Vec::new();
+        let mut contexts: Vec<Context> = Vec::new();
         for name in self.shader_names() {
             let Some(pass) = self.passes().iter().find(|pass| pass.shader == name) else {
                 continue;
@@ -60,9 +61,7 @@ impl Passes<'_> {
             let picture = drawn.map_or(name, |(picture, _)| &picture.name);
             let of_pass = |unfit: Unfit| unfit.of_subject(&format!("its pass `{picture}`"));
             let (inputs, shaders) = engine.emit_shaders(&request).map_err(of_pass)?;
-            contexts.push(PassShaderContext {
-                kernel: engine.context_of(&request, &inputs, shaders),
-            });
+            contexts.push(engine.context_of(&request, &inputs, shaders));
         }
         Ok(contexts)
     }
@@ -116,15 +115,13 @@ impl Passes<'_> {
     }
 
     /// The passes. `shaders` is the result of [`Passes::shader_contexts`].
-    pub fn pass_contexts(&self, shaders: &[PassShaderContext], scales: Option<&Scales>) -> Vec<PassContext> {
+    pub fn pass_contexts(&self, shaders: &[Context], scales: Option<&Scales>) -> Vec<PassContext> {
         let plan = &self.emitted.plan;
         let each = self.passes().iter().zip(plan.passes.iter()).enumerate();
         let each = each.filter_map(|(index, (compiled, planned))| {
             let picture = plan.picture(&planned.name)?;
-            let shader = shaders
-                .iter()
-                .position(|shader| shader.kernel.name == compiled.shader)?;
-            let kernel = &shaders.get(shader)?.kernel;
+            let shader = shaders.iter().position(|shader| shader.name == compiled.shader)?;
+            let kernel = shaders.get(shader)?;
             let reads = compiled.reads.iter().filter(|(name, _)| {
                 let first = kernel.shaders.values().next();
                 let bound = first.and_then(|shader| shader.manifest["bindings"].as_array());
@@ -193,7 +190,7 @@ impl Passes<'_> {
     }
 
     /// Textures between the passes.
-    pub fn memory_contexts(&self, shaders: &[PassShaderContext]) -> Vec<MemoryContext> {
+    pub fn memory_contexts(&self, shaders: &[Context]) -> Vec<MemoryContext> {
         let pictures = &self.emitted.plan.pictures;
         let count = pictures.iter().filter_map(|picture| picture.memory).max();
         let numbers = 0..count.map_or(0, |last| last + 1);
@@ -211,16 +208,16 @@ impl Passes<'_> {
     }
 
     /// Textures of the results, which are the caller's.
-    pub fn result_contexts(&self, shaders: &[PassShaderContext]) -> Vec<MemoryContext> {
+    pub fn result_contexts(&self, shaders: &[Context]) -> Vec<MemoryContext> {
         let results = self.emitted.plan.results();
         results.map(|picture| self.memory_context(picture, shaders)).collect()
     }
 
     /// Returns whether a pass reads a picture by a sampler that filters.
-    fn is_filtered(&self, picture: &PicturePlan, shaders: &[PassShaderContext]) -> bool {
+    fn is_filtered(&self, picture: &PicturePlan, shaders: &[Context]) -> bool {
         self.passes().iter().any(|pass| {
-            let shader = shaders.iter().find(|shader| shader.kernel.name == pass.shader);
-            let texts = shader.iter().flat_map(|shader| shader.kernel.shaders.values());
+            let shader = shaders.iter().find(|shader| shader.name == pass.shader);
+            let texts = shader.iter().flat_map(|shader| shader.shaders.values());
             let mut filtered = texts.flat_map(|text| &text.combined).filter(|c| c.filter != "nearest");
             filtered.any(|combined| {
                 let mut reads = pass.reads.iter();
@@ -230,7 +227,7 @@ impl Passes<'_> {
         })
     }
 
-    fn memory_context(&self, picture: &PicturePlan, shaders: &[PassShaderContext]) -> MemoryContext {
+    fn memory_context(&self, picture: &PicturePlan, shaders: &[Context]) -> MemoryContext {
         let mut passes = self.emitted.plan.passes.iter();
         MemoryContext {
             pictures: vec![picture.name.to_string()],
