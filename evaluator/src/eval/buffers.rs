@@ -42,7 +42,7 @@ impl Evaluator<'_> {
             .into());
         }
         let name = &*self.input_name(name);
-        self.elements.extend(args.first().cloned());
+        self.inputs.elements.extend(args.first().cloned());
         let buffers = &mut self.builder.graph_mut().buffers;
         buffers.push(Buffer {
             name: name.to_owned(),
@@ -195,7 +195,7 @@ Code::ResourceElement,
                 let len = self.builder.add(Op::BufferLen(index), Vec::new(), Type::I32);
                 let inside = self.held_index(at, len, "last", span)?;
                 let mut next = 0;
-                match self.elements[index as usize].clone() {
+                match self.inputs.elements[index as usize].clone() {
                     SourceType::Name(of, _) => {
                         self.read_part(index, inside, &SourceType::Name(of, Vec::new()), &mut next)
                     }

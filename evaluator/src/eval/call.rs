@@ -1,8 +1,9 @@
 //! Calls: the kernel's own functions, inlined, and the prelude's.
 
-use super::departures::Tail;
+use super::Evaluator;
+use super::control::Tail;
+use super::report::MAX_CALLS;
 use super::value::{ConstantDemand, Eval, Exit, Jump, Value};
-use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text};
 use crate::front::testing::RECORD;
@@ -268,7 +269,7 @@ impl<'a> Evaluator<'a> {
         if args.len() != function.params.len() {
             return Err(miscounted(name, function, args.len(), span));
         }
-        if self.calls.len() >= MAX_CALLS {
+        if self.report.is_too_deep() {
             return Err(self.too_deep(name, span));
         }
         let mut bound = self.constants_of(function, constants, &args, expected.as_deref(), span)?;
@@ -296,7 +297,7 @@ impl<'a> Evaluator<'a> {
             }
             self.scope.bind(&param.name, value);
         }
-        self.calls.push(name.into());
+        self.report.enter_call(name);
         let unroll = self.policy.unroll;
         self.policy.unroll = function.unroll.unwrap_or(unroll);
         let result = self.eval_without_exits(|e| {
@@ -304,7 +305,7 @@ impl<'a> Evaluator<'a> {
             e.merge_exits(0, result, outer.1, &|way| matches!(way, Jump::Return(_)), function.span)
         });
         self.policy.unroll = unroll;
-        self.calls.pop();
+        self.report.leave_call();
         // Constant parameters are also visible in the result type.
         for (name, value) in &bound {
             self.scope.bind(name, value.clone());
@@ -313,7 +314,7 @@ impl<'a> Evaluator<'a> {
         self.scope.leave_function(outer);
         if let Ok(value) = &result {
             // The kernel's own name does not describe its result.
-            let result = if self.calls.is_empty() {
+            let result = if self.report.call_depth() == 0 {
                 Cow::Borrowed("result")
             } else {
                 result_name(name)

@@ -3,9 +3,10 @@
 //! A closure that only reads a variable captures its value where the closure is created; Rust guarantees that it does not
 //! change while the closure lives. A closure that writes a variable captures its place.
 
-use super::departures::Tail;
+use super::Evaluator;
+use super::control::Tail;
+use super::report::MAX_CALLS;
 use super::value::{Captured, ClosureValue, Eval, Exit, Jump, Value};
-use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Block, Closure};
 use crate::front::{mentioned_in, scan_effects};
@@ -53,7 +54,7 @@ impl Evaluator<'_> {
         Ok(Value::Closure(Rc::new(ClosureValue {
             code: Arc::clone(code),
             captured,
-            function: self.calls.last().cloned().unwrap_or_default().into_owned(),
+            function: self.report.function().into_owned(),
         })))
     }
 
@@ -85,7 +86,7 @@ impl Evaluator<'_> {
             .label("called here")
             .into());
         }
-        if self.calls.len() >= MAX_CALLS {
+        if self.report.is_too_deep() {
             return Err(Diagnostic::error_at(
                 Code::Recursion,
                 span,
@@ -95,9 +96,9 @@ impl Evaluator<'_> {
             .into());
         }
         let outer = self.scope.enter_function();
-        self.calls.push(closed.function.clone().into());
+        self.report.enter_call(closed.function.clone());
         let result = self.eval_without_exits(|e| e.closed_body(&closed, args, outer.1, span));
-        self.calls.pop();
+        self.report.leave_call();
         self.scope.leave_function(outer);
         match result {
             Err(Exit::Left(_)) => {

@@ -43,36 +43,6 @@ pub fn atomic_named(name: &str, arguments: usize) -> Option<AtomicOp> {
 }
 
 impl Evaluator<'_> {
-    /// Evaluates code whose effects happen only if each of `conditions` has the stated value and no early exit was taken.
-    pub fn eval_under<T>(&mut self, conditions: &[(NodeId, bool)], evaluate: impl FnOnce(&mut Self) -> T) -> T {
-        let mark = self.path_conditions.len();
-        self.path_conditions.extend(conditions);
-        let outcome = evaluate(self);
-        self.path_conditions.truncate(mark);
-        outcome
-    }
-
-    /// Evaluates a called function without pending exits, under the condition that none of the current ones was taken.
-    pub fn eval_without_exits<T>(&mut self, evaluate: impl FnOnce(&mut Self) -> T) -> T {
-        let pending = std::mem::take(&mut self.early_exits);
-        let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
-        let outcome = self.eval_under(&gone, evaluate);
-        self.early_exits = pending;
-        outcome
-    }
-
-    /// Condition under which the code being evaluated is reached, as far as regions do not imply it.
-    pub(super) fn reach_condition(&mut self) -> NodeId {
-        let mut conditions = self.path_conditions.clone();
-        conditions.extend(self.early_exits.iter().map(|departure| (departure.condition, false)));
-        let mut all = self.builder.bool(true);
-        for (condition, holds) in conditions {
-            let holds = if holds { condition } else { self.not(condition) };
-            all = self.and(all, holds);
-        }
-        all
-    }
-
     /// Adds a parameter that is an image of the frame's size, written by the kernel.
     pub(super) fn image_parameter(&mut self, name: &str, args: &[SourceType], span: Span) -> Eval {
         let ty = match args {
@@ -230,7 +200,7 @@ impl Evaluator<'_> {
     fn check_write_allowed(&mut self, name: &str, span: Span) -> Eval<()> {
         let (what, help) = match self.builder.graph().invocation {
             Invocation::Pixel => return Ok(()),
-            Invocation::Group(_) if self.in_phase => return Ok(()),
+            Invocation::Group(_) if self.control.in_phase => return Ok(()),
             Invocation::Group(_) => (
                 "a kernel of workgroups, outside of its phases,",
                 "put it into a `group.each(|thread| ...)`, or every thread would do it",

@@ -32,7 +32,7 @@ impl Evaluator<'_> {
             .help(format!("there are {}: say which, FILE.rs::FUNCTION", names.join(", ")))
             .into());
         };
-        self.parameters = self.names_of_parameters(&function.params);
+        self.inputs.names = self.names_of_parameters(&function.params);
         let mut options = OptionValues::default();
         let mut args = Vec::new();
         for Param { name, ty, span, .. } in &function.params {
@@ -64,7 +64,7 @@ impl Evaluator<'_> {
         for error in unknown_settings(entry, &names, settings) {
             self.record_error(error.into());
         }
-        if !self.errors.is_empty() {
+        if self.report.error_count() > 0 {
             return Err(Exit::Noted);
         }
         let outputs = self.meeting_demands(|e| {
@@ -80,7 +80,7 @@ impl Evaluator<'_> {
         let Some(function) = self.library.functions.get(entry) else {
             return Vec::new();
         };
-        self.parameters = self.names_of_parameters(&function.params);
+        self.inputs.names = self.names_of_parameters(&function.params);
         for Param { name, ty, span, .. } in &function.params {
             let is_options = matches!(ty.peel_refs(), SourceType::Name(of, _) if self.library.options.contains_key(of));
             if ty.is_mutable_reference() {
@@ -91,8 +91,9 @@ impl Evaluator<'_> {
                 self.record_error(exit);
             }
         }
-        self.errors.retain(|error| error.code() == Some(Code::KernelParameter));
-        self.errors
+        let mut errors = self.report.take_errors();
+        errors.retain(|error| error.code() == Some(Code::KernelParameter));
+        errors
     }
 
     /// Names of parameters and of the fields of structure parameters, with the number of uses of each.
@@ -122,7 +123,7 @@ impl Evaluator<'_> {
         settings: &[OptionText],
         options: &mut OptionValues,
     ) -> Eval {
-        self.inputs.push((name.to_owned(), span));
+        self.inputs.declared.push((name.to_owned(), span));
         if let Some(resource) = self.resource_parameter(name, ty, span)? {
             return Ok(resource);
         }
@@ -150,12 +151,12 @@ impl Evaluator<'_> {
         for (field, ty, at) in &structure.fields {
             let ty = ty.peel_refs();
             // If several structures have a field of this name, the parameter's name is prefixed.
-            let is_one = self.parameters.get(unraw(field)).is_none_or(|times| *times == 1);
+            let is_one = self.inputs.names.get(unraw(field)).is_none_or(|times| *times == 1);
             let known = match is_one {
                 true => field.to_string(),
                 false => self.part_name(name, field),
             };
-            self.inputs.push((known.clone(), *at));
+            self.inputs.declared.push((known.clone(), *at));
             let value = match self.resource_parameter(&known, ty, *at)? {
                 Some(value) => Some(value),
                 None => self.uniform_part(&known, ty, *at)?,

@@ -2,7 +2,7 @@
 //! variant, one slot per variant; slots of inactive variants are undefined.
 
 use super::Evaluator;
-use super::departures::Tail;
+use super::control::Tail;
 use super::value::{Eval, Exit, Jump, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;

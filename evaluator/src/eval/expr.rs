@@ -1,9 +1,9 @@
 //! Expressions.
 
-use super::departures::Tail;
+use super::control::Tail;
 use super::enums::EnumValue;
 use super::value::{Eval, Exit, Jump, Step, Value};
-use super::{Evaluator, MAX_EXPRESSIONS, MAX_PARTS};
+use super::{Evaluator, MAX_PARTS};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::glam::public_fields;
 use crate::front::is_prelude_type;
@@ -20,16 +20,11 @@ impl Evaluator<'_> {
 
     pub fn eval_expr(&mut self, expr: &Expr) -> Eval {
         self.count_step(expr.span)?;
-        if self.depth >= MAX_EXPRESSIONS {
-            let what = format!("calls and expressions are nested more than {MAX_EXPRESSIONS} deep");
-            let error = Diagnostic::error_at(Code::Recursion, expr.span, what).label("reached here");
-            return Err(error.help("the command line goes deeper than a browser can").into());
-        }
-        self.depth += 1;
+        self.report.enter_expr(expr.span)?;
         let value = self.eval_expr_kind(expr);
-        self.depth -= 1;
+        self.report.leave_expr();
         if expr.span.file != Span::LIBRARY {
-            self.places.resize(self.builder.graph().nodes.len(), expr.span);
+            self.facts.places.resize(self.builder.graph().nodes.len(), expr.span);
         }
         value
     }

@@ -65,7 +65,7 @@ impl Evaluator<'_> {
         let value = self.eval_binary(op, &receiver, a, span)?;
         let found = self.value_node(&value, span)?;
         if op == BinaryOp::Sub {
-            self.wrapping.insert(found);
+            self.facts.wrapping.insert(found);
         }
         Ok(Some(found))
     }

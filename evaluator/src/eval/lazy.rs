@@ -3,7 +3,7 @@
 //! such loops, written in the kernel language (`front/std/lazy.rs`).
 
 use super::Evaluator;
-use super::departures::Tail;
+use super::control::Tail;
 use super::loops::LoopBody;
 use super::stages::{LAZY, Stage, lazy_value, split_stages};
 use super::value::{Eval, Exit, Range, Value};

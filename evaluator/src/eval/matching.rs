@@ -4,7 +4,7 @@
 //! both the arm and all later arms are evaluated.
 
 use super::Evaluator;
-use super::departures::Tail;
+use super::control::Tail;
 use super::sequence::has_choices;
 use super::value::{Eval, Exit, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};

@@ -100,7 +100,7 @@ impl Evaluator<'_> {
             "wrapping_neg" if ty.is_integer() => {
                 let zero = self.builder.constant(ty, [0; 4]);
                 let negative = self.builder.add(Op::Binary(BinaryOp::Sub), [zero, x], ty);
-                self.wrapping.insert(negative);
+                self.facts.wrapping.insert(negative);
                 Some(negative)
             }
             "to_bits" if ty == Type::F32 => Some(self.builder.add(Op::Bitcast, [x], Type::U32)),

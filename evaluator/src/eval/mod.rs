@@ -8,16 +8,12 @@ mod ascribe;
 mod assertions;
 mod assign;
 mod binding;
-mod blocks;
-mod budget;
 mod buffers;
 mod call;
-mod causes;
+mod checkpoint;
 mod closures;
 mod consts;
 mod control;
-mod demand;
-mod departures;
 mod effects;
 mod entry;
 mod enums;
@@ -26,7 +22,6 @@ mod functions;
 mod generics;
 mod integers;
 mod iterators;
-mod kept;
 mod lazy;
 mod library;
 mod loops;
@@ -39,13 +34,12 @@ mod objects;
 mod operators;
 mod options;
 mod order;
-mod partial;
 mod paths;
 mod place;
-mod points;
 mod positions;
 mod quad;
 mod ranges;
+mod report;
 mod resources;
 mod results;
 mod scope;
@@ -53,30 +47,29 @@ mod sequence;
 mod shape;
 mod slices;
 mod stages;
-mod states;
 mod tables;
 mod textures;
 mod traits;
 mod value;
-mod whiles;
 mod workgroups;
 
 use crate::diagnostic::{Code, Diagnostic, Errors, File, Span};
 use crate::front::Library;
-use crate::ir::{Builder, Counter, Graph, Invocation, NodeId, Scalar, Type, usize_value};
-use crate::limits;
+use crate::ir::{Builder, Graph, Invocation, NodeId, Scalar, Type, usize_value};
 use crate::passes::Exact;
 use crate::passes::narrow::{Facts, Refusal, narrow_usize};
 use crate::policy::{Math, Policy};
-use rustc_hash::FxHashSet;
+use control::ControlState;
+use loops::{ForcedUnrolls, LoopState};
+use report::Report;
+use resources::InputState;
 use scope::Scope;
-use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet, VecDeque};
+use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::sync::Arc;
 use straightline_kernels::{OptionText, OptionValues};
 use value::{Eval, Exit, Value};
 
-pub use budget::{BUDGET_HELP, LoopReport, name_largest_loops};
+pub use loops::{BUDGET_HELP, LoopReport, name_largest_loops};
 pub use options::{Numeric, OptionInfo, OptionKind, describe_options, parse_settings};
 
 /// An evaluated kernel, with its options resolved.
@@ -118,13 +111,12 @@ pub fn evaluate_kernel(
 ) -> Result<Evaluated, Errors> {
     let entry = &*crate::front::raw_name(entry);
     let looping = crate::front::looping_statements(library, entry, policy);
-    let mut unrolled = HashMap::new();
+    let mut forced = ForcedUnrolls::new();
     let mut steps = 0;
     loop {
         let mut evaluator = Evaluator::new(library, files, policy);
-        evaluator.loop_statements.clone_from(&looping);
-        evaluator.forced_unrolls.clone_from(&unrolled);
-        (evaluator.steps, evaluator.last_check) = (steps, steps);
+        evaluator.loops = LoopState::new(looping.clone(), forced);
+        evaluator.report = Report::new(files, steps);
         evaluator.builder.graph_mut().invocation = invocation;
         let refused = match evaluator.whole_kernel(entry, settings)? {
             Narrowed::Fits(evaluated) => return Ok(*evaluated),
@@ -137,7 +129,8 @@ pub fn evaluate_kernel(
         for (loops, error) in refused {
             evaluator.unroll_for(loops, error);
         }
-        (unrolled, steps) = (evaluator.forced_unrolls, evaluator.steps);
+        steps = evaluator.report.steps();
+        forced = evaluator.loops.into_forced();
     }
 }
 
@@ -149,50 +142,27 @@ enum Narrowed {
     Refused(Vec<(BTreeSet<Span>, Diagnostic)>),
 }
 
-/// Steps after which a kernel is assumed not to terminate.
-const MAX_STEPS: u64 = 20_000_000;
-
-/// Steps between two checks of time and memory.
-const STEPS_BETWEEN_CHECKS: u64 = 1 << 10;
-
-/// Nodes after which a loop is assumed to be unrolled by mistake.
-const MAX_NODES: usize = 400_000;
-
 /// Upper limit for the parts of one value.
 const MAX_PARTS: usize = 1 << 18;
 
-/// Call depth after which a recursion is assumed not to terminate.
-const MAX_CALLS: usize = 200;
+/// Number of components copied in the time of one step.
+const PARTS_PER_STEP: usize = 8;
 
-/// Depth of nested expressions, those of the calling functions included. WebAssembly uses its host's stack of about
-/// one megabyte. Everywhere else the stack is deep enough for anything that the front end and [`MAX_CALLS`] allow.
-const MAX_EXPRESSIONS: u32 = if cfg!(target_arch = "wasm32") { 700 } else { 100_000 };
-
+/// Evaluation of one kernel. Each part of its state that has rules of its own is a structure with private fields.
 struct Evaluator<'a> {
     library: &'a Library,
     /// Types that implement the kernel's traits.
     implementers: Vec<&'a str>,
-    builder: Builder<'a>,
     /// Policy for loops and branches in the function that is being evaluated.
     policy: Policy,
-    /// The kernel's files, for excerpts.
-    files: Arc<Vec<File>>,
-    /// Loops unrolled regardless of the policy, because a constant is needed that they assign.
-    forced_unrolls: HashMap<Span, demand::UnrollReason>,
-    /// Number of times evaluation has returned to a loop.
-    restarts: usize,
-    /// Statements that may leave an unrollable loop in the shader.
-    loop_statements: FxHashSet<Span>,
-    /// `true` if every loop that can be unrolled is unrolled.
-    unrolls_all: bool,
-    loops: budget::LoopTracker,
-    structured_loops: demand::StructuredLoops,
+    builder: Builder<'a>,
     scope: Scope,
-    /// Counters of the enclosing unrolled loops, outermost first.
-    counters: Arc<[Counter]>,
-    /// Functions being evaluated, innermost last.
-    calls: Vec<Cow<'a, str>>,
-    errors: Vec<Diagnostic>,
+    loops: LoopState,
+    control: ControlState,
+    report: Report<'a>,
+    inputs: InputState,
+    /// Facts about values of type `usize`.
+    facts: Facts,
     /// The structures whose parts were named last, and after which parameter. Most structures are passed on from
     /// function to function.
     named: VecDeque<naming::NamedStruct>,
@@ -200,44 +170,10 @@ struct Evaluator<'a> {
     consts: HashMap<String, (usize, Value)>,
     /// Reads made so far.
     last_site: u32,
-    /// `true` inside a phase of a workgroup.
-    in_phase: bool,
-    /// Names of the kernel's parameters and of the fields of parameters that are structures, with the number of uses
-    /// of each name.
-    parameters: BTreeMap<String, usize>,
-    /// Element type of each buffer.
-    elements: Vec<crate::front::tree::Type>,
-    /// Steps of work, earlier attempts at the kernel included.
-    steps: u64,
-    /// Step count at the last check of time and memory.
-    last_check: u64,
-    /// Upper limit for the number of nodes.
-    most_nodes: usize,
-    /// `true` after a limit has been reached.
-    exhausted: bool,
     /// Type stated for the next call.
     expected: Option<Box<crate::front::tree::Type>>,
-    /// Depth of nested expressions.
-    depth: u32,
-    /// Early exits from the enclosing blocks, first to last.
-    early_exits: Vec<departures::EarlyExit>,
-    /// Number of enclosing loops left in the shader.
-    loop_depth: u32,
     /// `true` if the place that is being resolved will be written.
     writing: bool,
-    /// Conditions under which the current place is reached, each with its required value: those of the selected sides
-    /// of branches, and those of exits taken before the enclosing branches and loops.
-    path_conditions: Vec<(NodeId, bool)>,
-    /// Runtime conditions of the enclosing branches, with the number of calls around each.
-    branch_conditions: Vec<(usize, NodeId)>,
-    /// Runtime counters of type `usize`, with the start and end of their ranges.
-    counters_of_usize: HashMap<NodeId, (NodeId, NodeId)>,
-    /// Differences of `usize` that wrap intentionally.
-    wrapping: HashSet<NodeId>,
-    /// Source span of each node.
-    places: Vec<Span>,
-    /// The kernel's inputs, with the span of each declaration.
-    inputs: Vec<(String, Span)>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -249,40 +185,19 @@ impl<'a> Evaluator<'a> {
         Evaluator {
             library,
             implementers: objects::implementers(library),
-            builder,
             policy: policy.clone(),
-            files: Arc::clone(files),
-            forced_unrolls: HashMap::new(),
-            restarts: 0,
-            loop_statements: FxHashSet::default(),
-            branch_conditions: Vec::new(),
-            unrolls_all: false,
-            loops: budget::LoopTracker::default(),
-            structured_loops: demand::StructuredLoops::default(),
+            builder,
             scope: Scope::default(),
-            counters: Arc::default(),
-            calls: Vec::new(),
-            parameters: BTreeMap::new(),
-            errors: Vec::new(),
+            loops: LoopState::default(),
+            control: ControlState::default(),
+            report: Report::new(files, 0),
+            inputs: InputState::default(),
+            facts: Facts::default(),
             named: VecDeque::new(),
             consts: HashMap::new(),
             last_site: 0,
-            in_phase: false,
-            elements: Vec::new(),
-            steps: 0,
-            last_check: 0,
-            most_nodes: MAX_NODES,
-            exhausted: false,
             expected: None,
-            depth: 0,
-            early_exits: Vec::new(),
-            loop_depth: 0,
             writing: false,
-            path_conditions: Vec::new(),
-            counters_of_usize: HashMap::new(),
-            wrapping: HashSet::new(),
-            places: Vec::new(),
-            inputs: Vec::new(),
         }
     }
 }
@@ -291,14 +206,15 @@ impl Evaluator<'_> {
     /// Evaluates a kernel and narrows every `usize`.
     fn whole_kernel(&mut self, entry: &str, settings: &[OptionText]) -> Result<Narrowed, Errors> {
         let result = self.eval_kernel(entry, settings);
-        if result.is_ok() && self.errors.is_empty() {
+        if result.is_ok() && self.report.error_count() == 0 {
             self.check_loop_paths();
-            let deferred = self.loops.take_deferred();
-            self.errors.extend(deferred);
+            for error in self.loops.take_deferred() {
+                self.report.push_error(error);
+            }
         }
         let (outputs, options, docs) = match result {
-            Ok(parts) if self.errors.is_empty() => parts,
-            Ok(_) => return Err(self.all_errors()),
+            Ok(parts) if self.report.error_count() == 0 => parts,
+            Ok(_) => return Err(self.report.take_located()),
             Err(Exit::Left(_)) => {
                 return Err(Errors::from_diagnostic(Diagnostic::new(
                     Code::KernelResult,
@@ -307,15 +223,11 @@ impl Evaluator<'_> {
             }
             Err(exit) => {
                 self.record_error(exit);
-                return Err(self.all_errors());
+                return Err(self.report.take_located());
             }
         };
         let span = self.library.functions[entry].span;
-        let facts = Facts {
-            counters: std::mem::take(&mut self.counters_of_usize),
-            wrapping: std::mem::take(&mut self.wrapping),
-            places: std::mem::take(&mut self.places),
-        };
+        let facts = std::mem::take(&mut self.facts);
         let whole = std::mem::replace(&mut self.builder, Builder::new(&Exact)).finish(outputs);
         let narrowed = match narrow_usize(&whole, &facts) {
             Ok(narrowed) => narrowed,
@@ -324,7 +236,7 @@ impl Evaluator<'_> {
                     if error.span == Some(Span::default()) {
                         error.span = Some(span);
                     }
-                    (self.structured_loops.loops_feeding(&whole, &[node]), error)
+                    (self.loops.loops_feeding(&whole, &[node]), error)
                 });
                 return Ok(Narrowed::Refused(each.collect()));
             }
@@ -332,64 +244,34 @@ impl Evaluator<'_> {
         Ok(Narrowed::Fits(Box::new(Evaluated {
             loops: self.loops.sorted_reports(),
             span,
-            inputs: std::mem::take(&mut self.inputs),
+            inputs: std::mem::take(&mut self.inputs.declared),
             graph: narrowed.unwrap_or(whole),
             options,
             docs,
         })))
     }
 
-    fn all_errors(&mut self) -> Errors {
-        Errors::new(std::mem::take(&mut self.errors), &self.files)
-    }
-
     /// Counts a step of work, so that evaluation terminates.
     fn count_step(&mut self, span: Span) -> Eval<()> {
-        self.steps += 1;
-        limits::count_work(1);
-        let made = self.builder.graph().nodes.len();
-        let (code, what, help) = if self.steps > MAX_STEPS {
-            let what = format!("evaluation takes more than {MAX_STEPS} steps");
-            (Code::Budget, what, budget::BUDGET_HELP)
-        } else if made > self.most_nodes {
-            let what = format!("the kernel unrolls to more than {} operations", self.most_nodes);
-            (Code::Budget, what, budget::BUDGET_HELP)
-        } else {
-            let due = self.steps >= self.last_check + STEPS_BETWEEN_CHECKS;
-            let Some(excess) = due.then(|| limits::exceeded_limit(made)).flatten() else {
-                self.last_check = if due { self.steps } else { self.last_check };
-                return Ok(());
-            };
-            (Code::Limit, format!("evaluation takes {excess}"), excess.help())
-        };
-        self.exhausted = true;
-        let function = self.calls.last().cloned().unwrap_or_default();
-        let error = Diagnostic::error_at(code, span, what)
-            .label(format!("reached here, in `{function}`"))
-            .help(help);
-        Err(self.loops.name_largest(error).into())
+        self.count_steps(1, span)
+    }
+
+    /// Counts the work of copying or comparing a value with `parts` components. Without this, copies of large arrays in
+    /// loops would not exhaust the budget.
+    fn count_copy(&mut self, parts: usize, span: Span) -> Eval<()> {
+        self.count_steps(1 + (parts / PARTS_PER_STEP) as u64, span)
+    }
+
+    fn count_steps(&mut self, steps: u64, span: Span) -> Eval<()> {
+        self.report.count_work(steps);
+        let nodes = self.builder.graph().nodes.len();
+        let within = self.report.check_limits(nodes, loops::BUDGET_HELP, span);
+        within.map_err(|error| self.loops.name_largest(*error).into())
     }
 
     /// Records an error unless it has been recorded already.
     fn record_error(&mut self, exit: Exit) -> Exit {
-        let errors = match exit {
-            Exit::Error(error) => vec![*error],
-            Exit::Demand(needs) => needs.into_iter().map(|need| need.error).collect(),
-            other => return other,
-        };
-        for error in errors {
-            if !self.errors.contains(&error) {
-                self.errors.push(error);
-            }
-        }
-        Exit::Noted
-    }
-
-    /// Returns the runtime conditions that control evaluation inside the outermost call of a function.
-    fn decides_within(&self, function: &str) -> Vec<NodeId> {
-        let outermost = self.calls.iter().position(|name| *name == function).unwrap_or(0);
-        let inside = self.branch_conditions.iter().filter(|(calls, _)| *calls > outermost);
-        inside.map(|(_, condition)| *condition).collect()
+        self.report.record_exit(exit)
     }
 
     /// Returns a value for a message: the number itself if known, else the kind.

@@ -119,7 +119,7 @@ impl Evaluator<'_> {
             line: span.line,
             counters: match is_constant {
                 true => Arc::default(),
-                false => Arc::clone(&self.counters),
+                false => Arc::clone(self.loops.counters()),
             },
         };
         self.builder.set_origin(id, &origin);

@@ -4,7 +4,7 @@
 //! like a `match`.
 
 use super::Evaluator;
-use super::departures::Tail;
+use super::control::Tail;
 use super::enums::{EnumValue, Tag};
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};

@@ -1,9 +1,9 @@
 //! Resolution of paths: variable, constant, function, variant.
 
+use super::Evaluator;
 use super::call::vector_type;
 use super::enums::EnumValue;
 use super::value::{Eval, Exit, Value};
-use super::{Evaluator, MAX_CALLS};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use std::rc::Rc;
 
@@ -127,7 +127,7 @@ impl Evaluator<'_> {
         let Some((name, constant)) = library.consts.get_key_value(name) else {
             return Ok(None);
         };
-        if self.calls.len() >= MAX_CALLS {
+        if self.report.is_too_deep() {
             return Err(Diagnostic::error_at(
                 Code::EndlessDefinition,
                 span,
@@ -138,9 +138,9 @@ impl Evaluator<'_> {
             .into());
         }
         let outer = self.scope.enter_function();
-        self.calls.push(name.into());
+        self.report.enter_call(name);
         let value = self.eval_expr(&constant.value);
-        self.calls.pop();
+        self.report.leave_call();
         self.scope.leave_function(outer);
         let value = self.ascribe_type(value?, Some(&constant.ty), constant.value.span)?;
         let made = self.builder.graph().nodes.len();

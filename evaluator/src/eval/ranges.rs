@@ -332,7 +332,7 @@ impl Evaluator<'_> {
         let towards = if course.down { BinaryOp::Sub } else { BinaryOp::Add };
         let counter = self.builder.add(Op::Binary(towards), [course.from, far], ty);
         if ty == Type::USIZE {
-            self.counters_of_usize.insert(counter, (course.start, course.end));
+            self.facts.counters.insert(counter, (course.start, course.end));
         }
         self.as_counter(counter, course.index)
     }

@@ -6,6 +6,19 @@ use crate::diagnostic::Span;
 use crate::front::tree::Type as SourceType;
 use crate::front::unraw;
 use crate::ir::{Sampler, Uniform};
+use std::collections::BTreeMap;
+
+/// The kernel's inputs.
+#[derive(Default)]
+pub struct InputState {
+    /// Names of the kernel's parameters and of the fields of parameters that are structures, with the number of uses
+    /// of each name.
+    pub names: BTreeMap<String, usize>,
+    /// Element type of each buffer.
+    pub elements: Vec<SourceType>,
+    /// Every input, with the span of its declaration.
+    pub declared: Vec<(String, Span)>,
+}
 
 impl Evaluator<'_> {
     /// Adds a resource parameter; `None` if its type is not a resource.
@@ -40,13 +53,17 @@ impl Evaluator<'_> {
     /// Unique name of an option that is set at run time: the field's, unless a parameter or another input has it.
     pub fn option_name(&self, name: &str) -> String {
         let name = unraw(name);
-        self.free_name(name, &|name| self.is_input(name) || self.parameters.contains_key(name))
+        self.free_name(name, &|name| {
+            self.is_input(name) || self.inputs.names.contains_key(name)
+        })
     }
 
     /// Unique name joined from those of a parameter and a part.
     pub fn part_name(&self, name: &str, part: &str) -> String {
         let name = format!("{}_{}", unraw(name), unraw(part));
-        self.free_name(&name, &|name| self.is_input(name) || self.parameters.contains_key(name))
+        self.free_name(&name, &|name| {
+            self.is_input(name) || self.inputs.names.contains_key(name)
+        })
     }
 
     /// First of `name`, `name_2`, `name_3`, ... that is not taken.

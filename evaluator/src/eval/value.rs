@@ -376,6 +376,12 @@ impl Jump {
     }
 }
 
+impl From<Box<Diagnostic>> for Exit {
+    fn from(error: Box<Diagnostic>) -> Exit {
+        Exit::Error(error)
+    }
+}
+
 impl From<Diagnostic> for Exit {
     fn from(diagnostic: Diagnostic) -> Self {
         Exit::Error(Box::new(diagnostic))

@@ -154,7 +154,7 @@ impl Evaluator<'_> {
 
     /// Evaluates `group.each(f)`: each thread runs `f` after all threads have finished the code before.
     pub(super) fn eval_phase(&mut self, function: &Function, args: Vec<Value>, span: Span) -> Eval {
-        if self.in_phase {
+        if self.control.in_phase {
             return Err(
                 Diagnostic::error_at(Code::WorkgroupPhase, span, "a phase inside a phase")
                     .label("each thread would run all of them")
@@ -172,9 +172,9 @@ impl Evaluator<'_> {
             self.builder
                 .add_effect(Op::Barrier { buffers }, Vec::new(), Type::Results);
         }
-        self.in_phase = true;
+        self.control.in_phase = true;
         let result = self.inline_known(Self::PHASE, function, &[], args, span);
-        self.in_phase = false;
+        self.control.in_phase = false;
         result
     }
 
@@ -225,7 +225,7 @@ impl Evaluator<'_> {
             .help("take the workgroup instead of the pixel: `group: &Workgroup<16, 16>`")
             .into());
         }
-        if !self.in_phase {
+        if !self.control.in_phase {
             return Err(Diagnostic::error_at(
                 Code::WorkgroupPhase,
                 span,

@@ -95,10 +95,9 @@ pub fn describe_options(library: &Library, files: &Arc<Vec<File>>, entry: &str) 
             }
         }
     }
-    if evaluator.errors.is_empty() {
-        Ok(infos)
-    } else {
-        Err(Errors::new(evaluator.errors, files))
+    match evaluator.report.error_count() {
+        0 => Ok(infos),
+        _ => Err(evaluator.report.take_located()),
     }
 }
 

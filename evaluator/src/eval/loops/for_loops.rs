@@ -1,13 +1,13 @@
 //! `for`, and the rules common to all loops: a loop is left in the shader if that is requested and possible.
 
-use super::Evaluator;
 use super::causes::range_ends;
 use super::demand::UnrollReason;
-use super::departures::Tail;
 use super::partial::LoopCount;
-use super::stages::{Stage, split_stages};
-use super::value::{Eval, Exit, Place, Range, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::eval::Evaluator;
+use crate::eval::control::Tail;
+use crate::eval::stages::{Stage, split_stages};
+use crate::eval::value::{Eval, Exit, Place, Range, Step, Value};
 use crate::front::tree::{Block, ForLoop, Pattern};
 use crate::ir::Counter;
 use crate::policy::{Asked, Unroll};
@@ -54,15 +54,15 @@ pub enum LoopOutcome {
 impl Evaluator<'_> {
     pub fn eval_for(&mut self, f: &ForLoop, span: Span) -> Eval {
         let items = self.eval_expr(&f.over)?;
-        let function = self.calls.last().cloned().unwrap_or_default();
+        let function = self.report.function();
         let counter = counter_of(f);
         let asked = self.policy.requested_unroll(&function, &counter, f.unroll);
         let made = self.builder.graph().nodes.len();
-        self.loops.enter_loop(&function, &counter, span, made);
+        self.loops.tracker.enter_loop(&function, &counter, span, made);
         let outcome = self.run_for(f, items, asked, span);
         let made = self.builder.graph().nodes.len();
         let became = *outcome.as_ref().unwrap_or(&Unroll::Full);
-        self.loops.leave_loop(became, made);
+        self.loops.tracker.leave_loop(became, made);
         outcome.map(|_| Value::unit())
     }
 
@@ -165,7 +165,7 @@ impl Evaluator<'_> {
         let mut nodes = Vec::new();
         value.flatten(&mut nodes);
         let reason = self.runtime_end_reason(Some(place.unwrap_or(f.over.span)), &nodes);
-        self.loops.record_reason(span, reason);
+        self.loops.tracker.record_reason(span, reason);
     }
 
     /// Leaves a loop in the shader if that is requested and possible.
@@ -178,7 +178,7 @@ impl Evaluator<'_> {
         let LoopRequest { asked, span, .. } = *wish;
         let least = match asked.unroll {
             Unroll::Full => return Ok(LoopOutcome::Unrolled(None)),
-            _ if self.unrolls_all => return Ok(LoopOutcome::Unrolled(None)),
+            _ if self.loops.unrolls_all => return Ok(LoopOutcome::Unrolled(None)),
             Unroll::None => 1,
             Unroll::Partial(factor) => 2 * u64::from(factor),
         };
@@ -188,26 +188,26 @@ impl Evaluator<'_> {
                 1 => "it has 1 iteration".to_owned(),
                 n => format!("it has {n} iterations, fewer than {least}"),
             };
-            self.loops.record_reason(span, reason);
+            self.loops.tracker.record_reason(span, reason);
             return Ok(LoopOutcome::Unrolled(None));
         }
-        if let Some(needed) = self.forced_unrolls.get(&span) {
+        if let Some(needed) = self.loops.forced.get(&span) {
             let why = needed.clone();
-            self.loops.record_reason(span, why.reason);
+            self.loops.tracker.record_reason(span, why.reason);
             if asked.by_name {
                 let error =
                     refusal_error(wish, &why.error).note("what the loop assigns would be a runtime value after it");
-                self.loops.defer_error(error);
+                self.loops.tracker.defer_error(error);
             }
             return Ok(LoopOutcome::Unrolled(None));
         }
-        let why = if let Some(why) = self.loops.previous_failure(span) {
+        let why = if let Some(why) = self.loops.tracker.previous_failure(span) {
             why
         } else {
             let before = self.take_checkpoint();
-            self.structured_loops.mark_unrollable(span);
+            self.loops.structured.mark_unrollable(span);
             match count(self).and_then(|count| self.keep_loop(body, &count, asked.unroll, span)) {
-                Err(exit) if self.exhausted => return Err(exit),
+                Err(exit) if self.report.is_exhausted() => return Err(exit),
                 // All invocations have exited, or a loop around or before this one has to be unrolled.
                 Err(exit @ Exit::Left(_)) => return Err(exit),
                 Err(Exit::Demand(needs)) if needs.iter().all(|need| !need.loops.contains(&span)) => {
@@ -232,32 +232,32 @@ impl Evaluator<'_> {
                         ))
                     };
                     let why = why.unwrap_or_else(body);
-                    self.loops.record_failure(span, &why);
+                    self.loops.tracker.record_failure(span, &why);
                     why
                 }
                 Ok(unroll) => return Ok(LoopOutcome::Kept(unroll)),
             }
         };
-        self.loops.record_reason(span, why.reason);
+        self.loops.tracker.record_reason(span, why.reason);
         Ok(LoopOutcome::Unrolled(
             asked.by_name.then(|| refusal_error(wish, &why.error)),
         ))
     }
 
     fn unroll_loop(&mut self, body: &LoopBody<'_>, items: Vec<Value>, span: Span) -> Eval<()> {
-        let (mark, since) = (self.scope.enter(), self.early_exits.len());
-        let noted = self.errors.len();
+        let (mark, since) = (self.scope.enter(), self.control.exit_count());
+        let noted = self.report.error_count();
         let mut outcome = Ok(Value::unit());
         for item in items {
             outcome = self.eval_if_live(since, Tail::Open, span, |e| {
-                e.loops.record_iteration();
+                e.loops.tracker.record_iteration();
                 e.eval_body(body, item, span).map(|()| Value::unit())
             });
             if outcome.is_err() {
                 break;
             }
             // The next iteration would only report the same errors again.
-            if self.errors.len() > noted {
+            if self.report.error_count() > noted {
                 return Err(Exit::Noted);
             }
         }
@@ -268,7 +268,7 @@ impl Evaluator<'_> {
     /// Evaluates the body for one value of the iterated sequence.
     pub fn eval_body(&mut self, body: &LoopBody<'_>, item: Value, span: Span) -> Eval<()> {
         self.count_step(span)?;
-        let (mark, since) = (self.scope.enter(), self.early_exits.len());
+        let (mark, since) = (self.scope.enter(), self.control.exit_count());
         let outcome = match body.pattern {
             Some(_) => self.eval_staged_body(body.stages, [item.clone(), item], body, span),
             None => self.block_in(body.block, Tail::Iteration(body.label)),
@@ -293,14 +293,14 @@ impl Evaluator<'_> {
             }),
             _ => None,
         };
-        let around = Arc::clone(&self.counters);
+        let around = Arc::clone(&self.loops.counters);
         if counter.is_some() {
-            self.counters = around.iter().cloned().chain(counter).collect();
+            self.loops.counters = around.iter().cloned().chain(counter).collect();
         }
         let outcome = self
             .bind_pattern(pattern, item, span)
             .and_then(|()| self.block_in(body.block, Tail::Iteration(body.label)));
-        self.counters = around;
+        self.loops.counters = around;
         self.scope.leave(mark);
         outcome
     }

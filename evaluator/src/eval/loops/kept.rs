@@ -1,11 +1,11 @@
 //! Loops left in the shader: the variables that they carry from one iteration to the next, and their exits.
 
-use super::Evaluator;
-use super::departures::{EarlyExit, Side};
-use super::loops::LoopBody;
-use super::shape::same_shape;
-use super::value::{Eval, Exit, Jump, Value};
+use super::for_loops::LoopBody;
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::eval::Evaluator;
+use crate::eval::control::{EarlyExit, Side};
+use crate::eval::shape::same_shape;
+use crate::eval::value::{Eval, Exit, Jump, Value};
 use crate::front::scan_effects;
 use crate::ir::{Naming, NodeId, Op, Origin, RegionId, Type};
 use std::sync::Arc;
@@ -30,18 +30,9 @@ impl Evaluator<'_> {
             .help("put the condition of inner loops into outer ones")
             .into());
         }
-        let before = self.scope.clone();
-        let pending = std::mem::take(&mut self.early_exits);
-        let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
-        self.loop_depth += 1;
-        let outcome = self.eval_under(&gone, |e| e.carry_widened(body, bounds, iteration, span));
-        self.loop_depth -= 1;
-        if outcome.is_err() {
-            // Values computed inside the loop belong to no place outside.
-            self.scope = before;
-            self.early_exits.clear();
-        }
-        self.early_exits.splice(0..0, pending);
+        self.loops.depth += 1;
+        let outcome = self.eval_nested(|e| e.carry_widened(body, bounds, iteration, span));
+        self.loops.depth -= 1;
         outcome
     }
 
@@ -93,7 +84,8 @@ impl Evaluator<'_> {
         let settled = self.scope.clone();
 
         let region = self.builder.open_region(&types);
-        self.structured_loops
+        self.loops
+            .structured
             .push_loop(region, span, [&[start, end], &initial[..]].concat());
         let params = self.builder.graph().region(region).params.clone();
         let mut inner = params[1..].iter().copied();
@@ -107,9 +99,9 @@ impl Evaluator<'_> {
         if let Some((name, at)) = body.counter {
             self.name_params(&Value::Node(params[0]), name, at);
         }
-        self.loops.record_iteration();
+        self.loops.tracker.record_iteration();
         let outcome = iteration(self, params[0]).map(|()| Value::unit());
-        let departed = std::mem::take(&mut self.early_exits);
+        let departed = self.take_exits();
         let side = self.side_of(outcome, departed, mark, span);
         let mut results = Vec::new();
         let mut changed = None;
@@ -184,7 +176,7 @@ impl Evaluator<'_> {
             let scope = self.in_state(&self.scope, &side.states, Some(&way));
             self.name_exit(condition, &way, span);
             let group = Some(region);
-            self.early_exits.push(EarlyExit {
+            self.control.push_exit(EarlyExit {
                 condition,
                 jump: way,
                 scope,
@@ -270,7 +262,7 @@ impl Evaluator<'_> {
                     naming: Naming::Let,
                     file: span.file,
                     line: span.line,
-                    counters: Arc::clone(&self.counters),
+                    counters: Arc::clone(&self.loops.counters),
                 };
                 self.builder.set_origin(*id, &origin);
             }

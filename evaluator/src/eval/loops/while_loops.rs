@@ -1,13 +1,13 @@
 //! `while` and `loop`.
 
-use super::Evaluator;
 use super::causes::exit_condition;
-use super::departures::Tail;
-use super::loops::{LoopBody, LoopOutcome, LoopRequest};
+use super::for_loops::{LoopBody, LoopOutcome, LoopRequest};
 use super::partial::LoopCount;
-use super::scope::Scope;
-use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::eval::Evaluator;
+use crate::eval::control::Tail;
+use crate::eval::scope::Scope;
+use crate::eval::value::{Eval, Exit, Value};
 use crate::front::tree::{Block, Expr, ExprKind, Statement};
 use crate::front::{child_exprs, guard_body, has_break, scan_effects};
 use crate::ir::NodeId;
@@ -39,17 +39,17 @@ impl Evaluator<'_> {
         attribute: Option<Unroll>,
         span: Span,
     ) -> Eval {
-        let function = self.calls.last().cloned().unwrap_or_default();
+        let function = self.report.function();
         let asked = self.policy.requested_unroll(&function, "while", attribute);
         let made = self.builder.graph().nodes.len();
-        self.loops.enter_loop(&function, "while", span, made);
+        self.loops.tracker.enter_loop(&function, "while", span, made);
         let outcome = self.run_while(condition, block, label, asked, span);
         let made = self.builder.graph().nodes.len();
         let became = match &outcome {
             Ok((unroll, _)) => *unroll,
             Err(_) => Unroll::Full,
         };
-        self.loops.leave_loop(became, made);
+        self.loops.tracker.leave_loop(became, made);
         let (_, ends) = outcome?;
         ends
     }
@@ -82,7 +82,7 @@ impl Evaluator<'_> {
             ..body
         };
         let mut refused = None;
-        if asked.unroll != Unroll::Full && !self.unrolls_all {
+        if asked.unroll != Unroll::Full && !self.loops.unrolls_all {
             let (iterations, after) = self.count_iterations(condition, &body, span)?;
             let wish = LoopRequest {
                 asked,
@@ -128,20 +128,20 @@ impl Evaluator<'_> {
             .help("leave out that it is to be unrolled, or bound it: `#[cfg_attr(false, bound(64))]`");
             return Err(self.demand_unrolling(loops, error));
         }
-        self.structured_loops.record_end_causes(span, loops.clone());
+        self.loops.structured.record_end_causes(span, loops.clone());
         self.keep_loop(&until, &LoopCount::Unknown, Unroll::None, span)
             .map_err(|exit| match exit {
                 Exit::Error(error) => self.demand_unrolling(loops, *error),
                 other => other,
             })?;
-        self.loops.record_reason(span, reason);
+        self.loops.tracker.record_reason(span, reason);
         Ok((Unroll::None, self.finish_loop(condition, block, label)))
     }
 
     /// Outcome after a loop left in the shader: an exit, if only `return` or an outer loop's `break` ends the loop.
     fn finish_loop(&mut self, condition: &Expr, block: &Block, label: Option<&str>) -> Eval {
         let endless = matches!(condition.kind, ExprKind::Bool(true)) && !has_break(block, label);
-        match endless.then(|| self.early_exits.pop()).flatten() {
+        match endless.then(|| self.control.pop_exit()).flatten() {
             None => Ok(Value::unit()),
             Some(last) => {
                 self.scope = last.scope;
@@ -168,21 +168,17 @@ impl Evaluator<'_> {
             return Ok((None, Vec::new()));
         }
         let (before, initial) = (self.take_checkpoint(), self.scope.clone());
-        let unrolls_all = std::mem::replace(&mut self.unrolls_all, true);
+        let unrolls_all = std::mem::replace(&mut self.loops.unrolls_all, true);
         let mut rounds = 0;
         let made = self.builder.graph().nodes.len();
-        let most_nodes = self.most_nodes;
-        self.most_nodes = most_nodes.min(made + MAX_COUNTED);
+        let most = self.report.limit_nodes(made + MAX_COUNTED);
         let counted = self.unroll_while(condition, body, &mut rounds, span);
-        self.unrolls_all = unrolls_all;
-        let too_many = self.exhausted && self.builder.graph().nodes.len() > self.most_nodes;
-        self.most_nodes = most_nodes;
-        if too_many && self.builder.graph().nodes.len() <= most_nodes {
-            self.exhausted = false;
+        self.loops.unrolls_all = unrolls_all;
+        if self.report.restore_limit(most, self.builder.graph().nodes.len()) {
             self.return_to(before);
             return Ok((None, Vec::new()));
         }
-        let noted = self.errors.len() > before.error_count();
+        let noted = self.report.error_count() > before.error_count;
         let ended = matches!(counted?, WhileEnd::Ended(_));
         if noted {
             return Err(Exit::Noted);
@@ -210,10 +206,10 @@ impl Evaluator<'_> {
 
     /// Unrolls a `while` as long as its condition is a compile-time constant. Counts the iterations in `rounds`.
     fn unroll_while(&mut self, condition: &Expr, body: &LoopBody<'_>, rounds: &mut u64, span: Span) -> Eval<WhileEnd> {
-        let (mark, since) = (self.scope.enter(), self.early_exits.len());
-        let noted = self.errors.len();
+        let (mark, since) = (self.scope.enter(), self.control.exit_count());
+        let noted = self.report.error_count();
         let mut outcome = Ok(Value::unit());
-        let limit = self.loops.iteration_limit(span);
+        let limit = self.loops.tracker.iteration_limit(span);
         let mut before: Option<Scope> = None;
         loop {
             self.count_step(span)?;
@@ -223,14 +219,14 @@ impl Evaluator<'_> {
                 Some(false) => break,
                 None => return Ok(self.open_end(Some(condition.span), &[id])),
             }
-            if self.early_exits.len() > since {
+            if self.control.exit_count() > since {
                 // If no constant changed, the next iteration decides as the last one did, and so do all later ones.
                 let repeats = before.as_ref().is_some_and(|before| self.as_known(before, &self.scope));
                 if repeats || *rounds >= limit {
                     if !repeats {
-                        self.loops.record_open_end(span);
+                        self.loops.tracker.record_open_end(span);
                     }
-                    let conditions: Vec<NodeId> = self.early_exits[since..].iter().map(|d| d.condition).collect();
+                    let conditions = self.control.exits_since(since);
                     let exit = exit_condition(body.block, &self.library.mutating);
                     return Ok(self.open_end(exit.map(|exit| exit.span), &conditions));
                 }
@@ -238,13 +234,13 @@ impl Evaluator<'_> {
             }
             *rounds += 1;
             outcome = self.eval_if_live(since, Tail::Open, span, |e| {
-                e.loops.record_iteration();
+                e.loops.tracker.record_iteration();
                 e.eval_body(body, Value::unit(), span).map(|()| Value::unit())
             });
             if outcome.is_err() {
                 break;
             }
-            if self.errors.len() > noted {
+            if self.report.error_count() > noted {
                 return Err(Exit::Noted);
             }
         }
@@ -258,7 +254,7 @@ impl Evaluator<'_> {
     /// End of a `while` that depends on runtime conditions.
     fn open_end(&self, place: Option<Span>, conditions: &[NodeId]) -> WhileEnd {
         WhileEnd::Open {
-            loops: self.structured_loops.loops_feeding(self.builder.graph(), conditions),
+            loops: self.loops.structured.loops_feeding(self.builder.graph(), conditions),
             reason: self.runtime_end_reason(place, conditions),
         }
     }

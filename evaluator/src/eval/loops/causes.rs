@@ -1,8 +1,8 @@
 //! Reasons why a value is no compile-time constant: the inputs of the kernel that it depends on.
 
-use super::Evaluator;
 use super::demand::source_excerpt;
 use crate::diagnostic::Span;
+use crate::eval::Evaluator;
 use crate::front::scan_effects;
 use crate::front::tree::{Block, Expr, ExprKind, Statement};
 use crate::ir::{Graph, NodeId, Op};
@@ -16,12 +16,11 @@ impl Evaluator<'_> {
     /// Reason why a loop is left in the shader: the expression that decides its end, its place, and the inputs that this
     /// depends on.
     pub fn runtime_end_reason(&self, end: Option<Span>, nodes: &[NodeId]) -> String {
-        let place = end.and_then(|end| {
-            let file = self.files.get(end.file as usize)?;
-            let text = file.text.get(end.start as usize..end.end as usize)?;
-            Some(format!("`{}` at {}:{}", source_excerpt(text), file.path, end.line))
-        });
-        let end = place.unwrap_or_else(|| "its end".to_owned());
+        let excerpt = end.and_then(|end| self.report.excerpt(end));
+        let end = excerpt.map_or_else(
+            || "its end".to_owned(),
+            |(text, place)| format!("`{}` at {place}", source_excerpt(text)),
+        );
         match find_inputs(self.builder.graph(), nodes).join(" and ") {
             inputs if inputs.is_empty() => format!("{end} is a runtime value"),
             inputs => format!("{end} is a runtime value, as it depends on {inputs}"),

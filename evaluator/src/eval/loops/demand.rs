@@ -3,9 +3,9 @@
 //! A loop left in the shader turns the variables that it assigns into runtime values. If a constant is needed that depends
 //! on such a value, the graph shows the loops that feed it, and evaluation goes back to them (`points.rs`).
 
-use super::Evaluator;
-use super::value::{Captured, ConstantDemand, Eval, Exit, Value};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::eval::Evaluator;
+use crate::eval::value::{Captured, ConstantDemand, Eval, Exit, Value};
 use crate::ir::{Graph, NodeId, Op, RegionId};
 use crate::shorten;
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -102,7 +102,7 @@ impl Evaluator<'_> {
     /// shader that feed them, or the error if there are none.
     pub fn demand_constants(&self, nodes: &[NodeId], error: impl Into<Box<Diagnostic>>) -> Exit {
         let (loops, error) = (
-            self.structured_loops.loops_feeding(self.builder.graph(), nodes),
+            self.loops.structured.loops_feeding(self.builder.graph(), nodes),
             error.into(),
         );
         self.demand_unrolling(loops, *error)
@@ -135,21 +135,17 @@ impl Evaluator<'_> {
     pub fn unroll_for(&mut self, loops: BTreeSet<Span>, error: Diagnostic) {
         let why = self.unroll_reason(error);
         for span in loops {
-            self.structured_loops.unrollable.remove(&span);
-            self.forced_unrolls.entry(span).or_insert_with(|| why.clone());
+            self.loops.structured.unrollable.remove(&span);
+            self.loops.forced.entry(span).or_insert_with(|| why.clone());
         }
     }
 
     /// Reason for unrolling a loop, built from an error: the value, its location, and why a constant is needed.
     pub fn unroll_reason(&self, error: Diagnostic) -> UnrollReason {
-        let place = error.span.and_then(|span| {
-            let file = self.files.get(span.file as usize)?;
-            let text = file.text.get(span.start as usize..span.end as usize)?;
-            Some((source_excerpt(text), format!("{}:{}", file.path, span.line)))
-        });
-        let reason = match place {
-            Some((value, place)) => format!(
-                "`{value}` needs a compile-time constant at {place}, and this loop assigns it: {}",
+        let reason = match error.span.and_then(|span| self.report.excerpt(span)) {
+            Some((text, place)) => format!(
+                "`{}` needs a compile-time constant at {place}, and this loop assigns it: {}",
+                source_excerpt(text),
                 error.message
             ),
             None => format!(

@@ -7,10 +7,10 @@
 //! A kernel with many demands would be re-evaluated from its first loops on for each of them. After `AT_ONCE` restarts, a
 //! block is therefore evaluated to its end, so that all its demands are met at once.
 
-use super::Evaluator;
-use super::partial::Checkpoint;
-use super::value::{ConstantDemand, Eval, Exit};
 use crate::diagnostic::Span;
+use crate::eval::Evaluator;
+use crate::eval::checkpoint::Checkpoint;
+use crate::eval::value::{ConstantDemand, Eval, Exit};
 use crate::front::scan_effects;
 use crate::front::tree::{Block, Statement};
 use std::collections::BTreeSet;
@@ -39,11 +39,11 @@ impl Evaluator<'_> {
         let points = &mut points.points;
         if points
             .last()
-            .is_some_and(|last| !self.structured_loops.has_unrollable_since(last.before.loop_count()))
+            .is_some_and(|last| !self.loops.structured.has_unrollable_since(last.before.loops.kept))
         {
             points.pop();
         }
-        if self.loop_statements.contains(&span) && !self.unrolls_all {
+        if self.loops.statements.contains(&span) && !self.loops.unrolls_all {
             let before = self.take_checkpoint();
             points.push(RestartPoint { statement, before });
         }
@@ -60,7 +60,7 @@ impl Evaluator<'_> {
         statement: &Statement,
         points: &mut RestartPoints,
     ) -> Eval<()> {
-        if self.restarts < AT_ONCE {
+        if self.loops.restarts < AT_ONCE {
             return Err(Exit::Demand(needs));
         }
         points.deferred.extend(needs);
@@ -88,7 +88,7 @@ impl Evaluator<'_> {
                 needs.extend(last);
                 Err(Exit::Demand(needs))
             }
-            _ if !needs.is_empty() && !self.exhausted => Err(Exit::Demand(needs)),
+            _ if !needs.is_empty() && !self.report.is_exhausted() => Err(Exit::Demand(needs)),
             outcome => outcome,
         }
     }
@@ -101,9 +101,10 @@ impl Evaluator<'_> {
     /// The demands, if there is no such loop.
     pub fn go_back(&mut self, needs: Vec<ConstantDemand>, points: &mut RestartPoints) -> Eval<usize> {
         let points = &mut points.points;
-        let begin = points.first().map_or(usize::MAX, |point| point.before.loop_count());
+        let begin = points.first().map_or(usize::MAX, |point| point.before.loops.kept);
         let first = |span: &Span| {
-            self.structured_loops
+            self.loops
+                .structured
                 .first_position(*span)
                 .filter(|first| *first >= begin)
         };
@@ -112,7 +113,7 @@ impl Evaluator<'_> {
         let Some(earliest) = here.iter().filter_map(first).min() else {
             return Err(Exit::Demand(needs));
         };
-        points.truncate(points.partition_point(|point| point.before.loop_count() <= earliest));
+        points.truncate(points.partition_point(|point| point.before.loops.kept <= earliest));
         let Some(point) = points.pop() else {
             return Err(Exit::Demand(needs));
         };
@@ -121,7 +122,7 @@ impl Evaluator<'_> {
             let loops = need.loops.intersection(&here);
             self.unroll_for(loops.copied().collect(), need.error);
         }
-        self.restarts += 1;
+        self.loops.restarts += 1;
         Ok(point.statement)
     }
 
@@ -135,7 +136,7 @@ impl Evaluator<'_> {
                     for need in needs {
                         self.unroll_for(need.loops, need.error);
                     }
-                    self.restarts += 1;
+                    self.loops.restarts += 1;
                 }
                 outcome => return outcome,
             }

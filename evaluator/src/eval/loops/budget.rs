@@ -1,10 +1,8 @@
 //! Contribution of each loop to the size of a kernel.
 
-use super::Evaluator;
 use super::demand::UnrollReason;
-use super::value::Eval;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::limits;
+use crate::eval::Evaluator;
 use crate::policy::{self, Unroll};
 use std::collections::HashMap;
 
@@ -183,19 +181,7 @@ pub fn name_largest_loops(reports: &[LoopReport], mut error: Diagnostic) -> Diag
     error
 }
 
-/// Number of components copied in the time of one step.
-const PARTS_PER_STEP: usize = 8;
-
 impl Evaluator<'_> {
-    /// Counts the work of copying or comparing a value with `parts` components. Without this, copies of large arrays in
-    /// loops would not exhaust the budget.
-    pub fn count_copy(&mut self, parts: usize, span: Span) -> Eval<()> {
-        let steps = (parts / PARTS_PER_STEP) as u64;
-        self.steps += steps;
-        limits::count_work(steps);
-        self.count_step(span)
-    }
-
     /// Records an error for each loop that the policy names and the kernel does not have.
     pub fn check_loop_paths(&mut self) {
         let known = self.loops.sorted_reports();
@@ -211,8 +197,9 @@ impl Evaluator<'_> {
                 } else {
                     format!("its loops are {}", paths.join(", "))
                 };
-                self.errors
-                    .push(Diagnostic::new(Code::UnknownLoop, format!("the kernel has no loop `{path}`")).help(help));
+                self.report.push_error(
+                    Diagnostic::new(Code::UnknownLoop, format!("the kernel has no loop `{path}`")).help(help),
+                );
             }
         }
     }

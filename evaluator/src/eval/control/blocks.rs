@@ -1,10 +1,10 @@
 //! Blocks and their statements, with the exits that target the end of a block.
 
-use super::Evaluator;
 use super::departures::{Tail, has_exits};
-use super::points::RestartPoints;
-use super::value::{Eval, Exit, Jump, Value};
 use crate::diagnostic::Span;
+use crate::eval::Evaluator;
+use crate::eval::loops::RestartPoints;
+use crate::eval::value::{Eval, Exit, Jump, Value};
 use crate::front::tree::{Block, Expr, ExprKind, Pattern, Statement};
 
 impl Evaluator<'_> {
@@ -27,7 +27,7 @@ impl Evaluator<'_> {
     /// Evaluates a block starting at a statement. If a constant depends on a loop of the block, evaluation goes back to the
     /// statement with the loop.
     fn eval_statements(&mut self, block: &Block, mut from: usize, tail: Tail<'_>) -> Eval {
-        let noted = self.errors.len();
+        let noted = self.report.error_count();
         let mut points = RestartPoints::default();
         loop {
             let outcome = self.statements_from(block, from, tail, noted, &mut points);
@@ -47,7 +47,7 @@ impl Evaluator<'_> {
         points: &mut RestartPoints,
     ) -> Eval {
         for (k, statement) in block.statements.iter().enumerate().skip(from) {
-            let since = self.early_exits.len();
+            let since = self.control.early_exits.len();
             self.add_restart_point(points, k, statement.span());
             match statement {
                 Statement::Expr(Expr {
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
                     let parts = (&**condition, then, otherwise.as_deref());
                     let outcome =
                         self.eval_guard_clause(parts, tail, *span, &mut |e| e.eval_statements(block, k + 1, tail));
-                    let failed = self.errors.len() > noted;
+                    let failed = self.report.error_count() > noted;
                     return if failed { outcome.and(Err(Exit::Noted)) } else { outcome };
                 }
                 Statement::Let(pattern, ty, init, span) => {
@@ -101,11 +101,11 @@ impl Evaluator<'_> {
                     self.scope.bind(&constant.name, value);
                 }
             }
-            if self.early_exits.len() > since && self.keeps_exits(None) {
+            if self.control.early_exits.len() > since && self.keeps_exits(None) {
                 return self.eval_if_live(since, tail, statement.span(), |e| e.eval_statements(block, k + 1, tail));
             }
         }
-        if self.errors.len() > noted {
+        if self.report.error_count() > noted {
             return Err(Exit::Noted);
         }
         let Some(value) = &block.value else {
@@ -117,7 +117,7 @@ impl Evaluator<'_> {
 
     /// Evaluates a block that a `break` with its label leaves.
     pub fn eval_labelled_block(&mut self, label: &str, block: &Block, span: Span) -> Eval {
-        let (mark, since) = (self.scope.enter(), self.early_exits.len());
+        let (mark, since) = (self.scope.enter(), self.control.early_exits.len());
         let outcome = self.eval_block(block);
         let leads_here = |way: &Jump| matches!(way, Jump::Break(Some(of)) if of == label);
         self.merge_exits(since, outcome, mark, &leads_here, span)

@@ -6,10 +6,10 @@
 //! but never read; this is safe because operations are pure. If branches are left in the shader, the code after an exit
 //! becomes the other side of the branch, so that no invocation computes unused values.
 
-use super::Evaluator;
-use super::scope::Scope;
-use super::value::{Eval, Exit, Jump, Value};
 use crate::diagnostic::Span;
+use crate::eval::Evaluator;
+use crate::eval::scope::Scope;
+use crate::eval::value::{Eval, Exit, Jump, Value};
 use crate::front::tree::{Block, Expr, ExprKind, Statement};
 use crate::ir::{BinaryOp, NodeId, Op, RegionId, Type, UnaryOp};
 use crate::policy::Branches;
@@ -99,10 +99,10 @@ impl Evaluator<'_> {
         span: Span,
         rest: impl FnOnce(&mut Self) -> Eval,
     ) -> Eval {
-        if self.early_exits.len() == since || !self.keeps_exits(None) {
+        if self.control.early_exits.len() == since || !self.keeps_exits(None) {
             return rest(self);
         }
-        let departed = self.early_exits.split_off(since);
+        let departed = self.control.early_exits.split_off(since);
         let conditions = departed.iter().map(|d| d.condition).collect::<Vec<_>>();
         let left = conditions.into_iter().reduce(|a, b| self.or(a, b));
         let left = left.unwrap_or_else(|| unreachable!("somebody has left"));
@@ -114,7 +114,7 @@ impl Evaluator<'_> {
         let Some(last) = departed.pop() else {
             return Ok(Value::unit());
         };
-        self.early_exits.extend(departed);
+        self.control.early_exits.extend(departed);
         self.scope = last.scope;
         Err(Exit::Left(last.jump))
     }
@@ -182,7 +182,7 @@ impl Evaluator<'_> {
         span: Span,
         rest: &mut dyn FnMut(&mut Self) -> Eval,
     ) -> Eval {
-        let since = self.early_exits.len();
+        let since = self.control.early_exits.len();
         first(self)?;
         self.eval_if_live(since, tail, span, |e| rest(e))
     }
@@ -190,7 +190,8 @@ impl Evaluator<'_> {
     /// Returns whether code after an exit under a runtime condition becomes a branch in the shader.
     pub fn keeps_exits(&self, attribute: Option<Branches>) -> bool {
         let stated = attribute.unwrap_or(self.policy.branches);
-        self.may_nest() && (self.policy.keeps_branch(attribute) || (self.loop_depth > 0 && stated == Branches::AsLoops))
+        self.may_nest()
+            && (self.policy.keeps_branch(attribute) || (self.loops.is_inside_kept() && stated == Branches::AsLoops))
     }
 
     /// Merges the exits since `since` that target this point into the current state, each with the value that it carries.
@@ -206,7 +207,7 @@ impl Evaluator<'_> {
         let mut mine: Vec<EarlyExit> = Vec::new();
         // Condition that none of the merged exits was taken.
         let mut others = self.builder.bool(true);
-        for mut departure in self.early_exits.split_off(since) {
+        for mut departure in self.control.early_exits.split_off(since) {
             if leads_here(&departure.jump) {
                 let stays = self.not(departure.condition);
                 others = self.and(others, stays);
@@ -214,7 +215,7 @@ impl Evaluator<'_> {
                 continue;
             }
             departure.condition = self.and(others, departure.condition);
-            self.early_exits.push(departure);
+            self.control.early_exits.push(departure);
         }
         let mut value = match outcome {
             Ok(value) => value,
@@ -230,7 +231,9 @@ impl Evaluator<'_> {
                         condition = self.and(stays, condition);
                     }
                     let scope = std::mem::replace(&mut self.scope, last.scope);
-                    self.early_exits.push(EarlyExit::from_parts(condition, way, scope));
+                    self.control
+                        .early_exits
+                        .push(EarlyExit::from_parts(condition, way, scope));
                     last.jump.into_value()
                 }
             },
@@ -382,7 +385,7 @@ impl Evaluator<'_> {
         match value {
             Some(value) => {
                 self.scope = self.in_state(&merged, &states, None);
-                self.early_exits.extend(departed);
+                self.control.early_exits.extend(departed);
                 Ok(value)
             }
             None => self.rethrow_exits(departed),

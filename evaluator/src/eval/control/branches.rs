@@ -1,10 +1,10 @@
 //! `if`, and the join of its two sides.
 
-use super::Evaluator;
 use super::departures::{EarlyExit, Side, Tail};
-use super::scope::Scope;
-use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::eval::Evaluator;
+use crate::eval::scope::Scope;
+use crate::eval::value::{Eval, Exit, Value};
 use crate::front::tree::{Block, Expr};
 use crate::ir::{NodeId, Op, RegionId, Type};
 use crate::policy::Branches;
@@ -87,22 +87,15 @@ impl Evaluator<'_> {
         then: impl FnOnce(&mut Self) -> Eval,
         otherwise: impl FnOnce(&mut Self) -> Eval,
     ) -> Eval {
-        let pending = std::mem::take(&mut self.early_exits);
-        let before = self.scope.clone();
-        let gone: Vec<_> = pending.iter().map(|departure| (departure.condition, false)).collect();
         let keep = keep && self.may_nest();
-        self.branch_conditions.push((self.calls.len(), condition));
-        let joined = self.eval_under(&gone, |e| match keep {
+        self.control
+            .branch_conditions
+            .push((self.report.call_depth(), condition));
+        let joined = self.eval_nested(|e| match keep {
             true => e.structured_branch(tail, condition, span, then, otherwise),
             false => e.selected_branch(tail, condition, span, then, otherwise),
         });
-        self.branch_conditions.pop();
-        if matches!(&joined, Err(exit) if exit.is_failure()) {
-            // Values created inside must not be used outside.
-            self.scope = before;
-            self.early_exits.clear();
-        }
-        self.early_exits.splice(0..0, pending);
+        self.control.branch_conditions.pop();
         joined
     }
 
@@ -120,30 +113,36 @@ impl Evaluator<'_> {
             return left;
         }
         let after_left = std::mem::replace(&mut self.scope, before);
-        let departed_left = std::mem::take(&mut self.early_exits);
+        let departed_left = self.take_exits();
         let right = self.eval_under(&[(condition, false)], |e| e.eval_side(tail, span, otherwise));
-        let departed_right = std::mem::take(&mut self.early_exits);
+        let departed_right = self.take_exits();
         let negated = self.not(condition);
         for (side, departed) in [(condition, departed_left), (negated, departed_right)] {
             for departure in departed {
                 let condition = self.and(side, departure.condition);
-                self.early_exits
+                self.control
+                    .early_exits
                     .push(EarlyExit::from_parts(condition, departure.jump, departure.scope));
             }
         }
         match (left, right) {
             (Ok(left), Ok(right)) => self.join_sides(condition, None, (after_left, left), right, span),
             (Err(Exit::Left(way)), Ok(right)) => {
-                self.early_exits.push(EarlyExit::from_parts(condition, way, after_left));
+                self.control
+                    .early_exits
+                    .push(EarlyExit::from_parts(condition, way, after_left));
                 Ok(right)
             }
             (Ok(left), Err(Exit::Left(way))) => {
                 let scope = std::mem::replace(&mut self.scope, after_left);
-                self.early_exits.push(EarlyExit::from_parts(negated, way, scope));
+                self.control
+                    .early_exits
+                    .push(EarlyExit::from_parts(negated, way, scope));
                 Ok(left)
             }
             (Err(Exit::Left(left)), Err(Exit::Left(right))) => {
-                self.early_exits
+                self.control
+                    .early_exits
                     .push(EarlyExit::from_parts(condition, left, after_left));
                 Err(Exit::Left(right))
             }
@@ -178,13 +177,13 @@ impl Evaluator<'_> {
     fn flat_side(&mut self, tail: Tail<'_>, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval<Side> {
         let mark = self.scope.enter();
         let outcome = self.eval_side(tail, span, evaluate);
-        let departed = std::mem::take(&mut self.early_exits);
+        let departed = self.take_exits();
         self.side_of(outcome, departed, mark, span)
     }
 
     /// Evaluates code whose result is used only where a runtime condition holds.
     fn eval_side(&mut self, tail: Tail<'_>, span: Span, evaluate: impl FnOnce(&mut Self) -> Eval) -> Eval {
-        let (mark, since) = (self.scope.enter(), self.early_exits.len());
+        let (mark, since) = (self.scope.enter(), self.control.early_exits.len());
         let outcome = evaluate(self);
         let outcome = self.merge_exits(since, outcome, mark, &|way| tail.is_target_of(way), span);
         self.scope.leave(mark);
@@ -193,11 +192,11 @@ impl Evaluator<'_> {
 
     /// Evaluates the right side of `&&` or `||` after `condition`. The right side has no exits.
     pub fn lazy_side(&mut self, condition: NodeId, right: impl FnOnce(&mut Self) -> Eval, span: Span) -> Eval {
-        let (mark, since) = (self.scope.enter(), self.early_exits.len());
+        let (mark, since) = (self.scope.enter(), self.control.early_exits.len());
         let outcome = right(self);
         self.scope.leave(mark);
-        let left = self.early_exits.len() > since;
-        self.early_exits.truncate(since);
+        let left = self.control.early_exits.len() > since;
+        self.control.early_exits.truncate(since);
         match outcome {
             Ok(value) if !left => Ok(value),
             Ok(_) | Err(Exit::Left(_)) => {

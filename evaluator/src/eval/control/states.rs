@@ -4,11 +4,11 @@
 //! an exit, may know a variable as a constant where the result is a runtime value: after `found = 3`, a `break` leaves with
 //! 3. Keeping such constants by state lets an unrolled loop around the branch count its iterations.
 
-use super::Evaluator;
 use super::departures::SideState;
-use super::enums::{EnumValue, Tag};
-use super::scope::Scope;
-use super::value::{Jump, Value};
+use crate::eval::Evaluator;
+use crate::eval::enums::{EnumValue, Tag};
+use crate::eval::scope::Scope;
+use crate::eval::value::{Jump, Value};
 use crate::ir::{NodeId, Op};
 use std::rc::Rc;
 
