@@ -62,8 +62,22 @@ fn features() -> Vec<(String, String)> {
     let mut found = Vec::new();
     // In the order of the page.
     for name in [
-        "control", "patterns", "closures", "lazy", "values", "numbers", "indices", "slices", "items", "orders",
-        "names", "ports", "shading", "noises", "refused",
+        "control",
+        "patterns",
+        "closures",
+        "lazy",
+        "values",
+        "numbers",
+        "indices",
+        "slices",
+        "items",
+        "overloads",
+        "orders",
+        "names",
+        "ports",
+        "shading",
+        "noises",
+        "refused",
     ] {
         let path = folder.join(format!("{name}.rs"));
         println!("cargo::rerun-if-changed={}", path.display());

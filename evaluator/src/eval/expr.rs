@@ -125,7 +125,11 @@ impl Evaluator<'_> {
             }
             ExprKind::Break(label) => Err(Exit::Left(Jump::Break(label.clone()))),
             ExprKind::Continue(label) => Err(Exit::Left(Jump::Continue(label.clone()))),
-            ExprKind::Assert(condition, message) => self.eval_assert(condition, message),
+            ExprKind::Assert {
+                condition,
+                message,
+                only_debug,
+            } => self.eval_assert(condition, message, *only_debug),
             ExprKind::Closure(closure) => self.eval_closure(closure, span),
         }
     }

@@ -5,7 +5,7 @@ use super::objects::OBJECT;
 use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text};
-use crate::front::tree::{Expr, Function};
+use crate::front::tree::{Expr, ExprKind, Function};
 use crate::ir::BinaryOp;
 use std::rc::Rc;
 
@@ -37,7 +37,7 @@ impl<'a> Evaluator<'a> {
             return Ok(value);
         }
         let own = match self.own_method(&value, name) {
-            None if !name.contains("::") => self.method_of_trait(&value, name, &args, span)?,
+            None => self.method_of_trait(&value, name, &args, span)?,
             own => own,
         };
         if let Some((method, function)) = own {
@@ -75,7 +75,12 @@ impl<'a> Evaluator<'a> {
             Value::Enum(choice)
                 if matches!(name, "unwrap" | "expect") && matches!(choice.ty.as_str(), "Option" | "Result") =>
             {
-                self.eval_unwrap(choice, name, span)
+                // Rust panics for what is not a number; here it has any order.
+                let comparison = choice.variant_fields(1).and_then(<[_]>::first);
+                match comparison.filter(|_| is_partial_comparison(receiver)) {
+                    Some((_, ordering)) => Ok(ordering.clone()),
+                    None => self.eval_unwrap(choice, name, span),
+                }
             }
             Value::Struct { .. } | Value::Enum(_) => {
                 let ty = match &value {
@@ -256,4 +261,14 @@ impl<'a> Evaluator<'a> {
         }
         self.eval_math_method(&value, name, &args, span)
     }
+}
+
+/// Returns whether an expression calls `partial_cmp`.
+fn is_partial_comparison(expr: &Expr) -> bool {
+    let name = match &expr.kind {
+        ExprKind::Method(_, name, ..) => name,
+        ExprKind::Call(path, ..) => path.last().map_or("", String::as_str),
+        _ => return false,
+    };
+    name.rsplit("::").next() == Some("partial_cmp")
 }

@@ -137,14 +137,39 @@ impl Evaluator<'_> {
             .help("write out one of the values in the cycle")
             .into());
         }
+        // The parameters of its `impl` have the values of the function that mentions it.
+        let mut given = Vec::new();
+        for generic in &constant.generics {
+            let Some(value) = self.scope.get(generic.name()).cloned() else {
+                return Err(unknown_parameter(name, generic.name(), span));
+            };
+            given.push((generic.name(), value));
+        }
         let outer = self.scope.enter_function();
+        let is_shared = given.is_empty();
+        for (parameter, value) in given {
+            self.scope.bind(parameter, value);
+        }
         self.report.enter_call(name);
         let value = self.eval_expr(&constant.value);
         self.report.leave_call();
         self.scope.leave_function(outer);
         let value = self.ascribe_type(value?, Some(&constant.ty), constant.value.span)?;
-        let made = self.builder.graph().nodes.len();
-        self.consts.insert(name.to_owned(), (made, value.clone()));
+        if is_shared {
+            let made = self.builder.graph().nodes.len();
+            self.consts.insert(name.to_owned(), (made, value.clone()));
+        }
         Ok(Some(value))
     }
+}
+
+fn unknown_parameter(constant: &str, parameter: &str, span: Span) -> Exit {
+    Diagnostic::error_at(
+        Code::TypeNeeded,
+        span,
+        format!("the parameter `{parameter}` of the constant `{constant}` is not known here"),
+    )
+    .label("outside of its type's own functions")
+    .help("compute it in a function of the type, which has the parameter")
+    .into()
 }

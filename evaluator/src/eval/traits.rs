@@ -5,7 +5,7 @@ use super::Evaluator;
 use super::objects::OBJECT;
 use super::value::{Eval, Exit, Place, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Function, Generic, Type as SourceType};
+use crate::front::tree::{Function, Generic, Type as SourceType, qualify_name, split_qualified};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::rc::Rc;
 
@@ -118,10 +118,7 @@ impl<'a> Evaluator<'a> {
     pub fn keys_of_operator(&self, value: &Value, of: &str, name: &str) -> Vec<&'a str> {
         let library = self.library;
         let names = self.type_names(value);
-        names
-            .iter()
-            .flat_map(|ty| library.operator_keys(ty, of, name))
-            .collect()
+        names.iter().flat_map(|ty| library.trait_keys(ty, of, name)).collect()
     }
 
     /// Evaluates `place op= value` of a structure or an enum; returns `false` if no such operator exists.
@@ -133,10 +130,7 @@ impl<'a> Evaluator<'a> {
         let (of, name) = (format!("{of}Assign"), format!("{name}_assign"));
         let library = self.library;
         let names = self.type_names(&old);
-        let keys: Vec<&str> = names
-            .iter()
-            .flat_map(|ty| library.operator_keys(ty, &of, &name))
-            .collect();
+        let keys: Vec<&str> = names.iter().flat_map(|ty| library.trait_keys(ty, &of, &name)).collect();
         let values = vec![Value::Ref(Rc::new(place.clone())), value.clone()];
         let Some(key) = self.find_overload(&keys, &values, span)? else {
             return Ok(false);
@@ -158,7 +152,7 @@ impl<'a> Evaluator<'a> {
             _ => return Ok(None),
         };
         let library = self.library;
-        match library.operator_keys(ty, of, name).first() {
+        match library.trait_keys(ty, of, name).first() {
             Some(key) => self.inline_function(key, &[], vec![value.clone()], span).map(Some),
             None => Ok(None),
         }
@@ -182,9 +176,9 @@ impl<'a> Evaluator<'a> {
         let (own, keys) = match place {
             Some(place) => (
                 Value::Ref(Rc::new(place.clone())),
-                library.operator_keys(ty, "IndexMut", "index_mut"),
+                library.trait_keys(ty, "IndexMut", "index_mut"),
             ),
-            None => (base.clone(), library.operator_keys(ty, "Index", "index")),
+            None => (base.clone(), library.trait_keys(ty, "Index", "index")),
         };
         let values = vec![own, index.clone()];
         match self.find_overload(&keys, &values, span)? {
@@ -201,17 +195,23 @@ impl<'a> Evaluator<'a> {
         args: &[Value],
         span: Span,
     ) -> Eval<Option<(&'a str, &'a Function)>> {
-        // Inherent methods of numbers take precedence over those of a trait.
-        if matches!(value, Value::Node(id) if crate::front::methods::has_method(self.ty(*id), name)) {
-            return Ok(None);
-        }
         let library = self.library;
         let mut names = self.type_names(value);
-        names.retain(|ty| !crate::front::methods::is_inherent(ty, name));
-        let keys = names
-            .iter()
-            .map(|ty| library.method_keys(ty, name))
-            .find(|keys| !keys.is_empty());
+        let keys = match split_qualified(name) {
+            Some((_, of, name)) => names
+                .iter()
+                .map(|ty| library.trait_keys(ty, of, name))
+                .find(|keys| !keys.is_empty()),
+            None if name.contains("::") => None,
+            None => {
+                // Inherent methods of numbers take precedence over those of a trait.
+                names.retain(|ty| !crate::front::methods::is_inherent(ty, name));
+                names
+                    .iter()
+                    .map(|ty| library.method_keys(ty, name))
+                    .find(|keys| !keys.is_empty())
+            }
+        };
         let Some(keys) = keys else { return Ok(None) };
         let values: Vec<Value> = std::iter::once(value.clone()).chain(args.iter().cloned()).collect();
         match self.find_overload(&keys, &values, span)? {
@@ -226,6 +226,9 @@ impl<'a> Evaluator<'a> {
 
     /// Resolves a path of two segments: a type parameter by its type, a trait by the type of the first value.
     pub fn resolve_path(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Vec<String>>> {
+        if let [name] = path {
+            return self.resolve_qualified(name, values, span);
+        }
         let [of, name] = path else { return Ok(None) };
         if let Some(ty) = self.type_behind(of) {
             return Ok(Some(vec![ty, name.clone()]));
@@ -245,8 +248,38 @@ impl<'a> Evaluator<'a> {
             return Ok(None);
         };
         let first = self.deref_value(first.clone(), span)?;
-        let found = self.method_of_trait(&first, name, &values[1..], span)?;
+        let qualified = qualify_name("_", of, name);
+        let found = self.method_of_trait(&first, &qualified, &values[1..], span)?;
         Ok(found.map(|(key, _)| vec![key.to_owned()]))
+    }
+
+    /// Resolves a function of a trait for a type parameter.
+    fn resolve_qualified(&mut self, path: &str, values: &[Value], span: Span) -> Eval<Option<Vec<String>>> {
+        let library = self.library;
+        let Some((parameter, of, name)) = split_qualified(path).filter(|_| !library.functions.contains_key(path))
+        else {
+            return Ok(None);
+        };
+        let takes_self = library
+            .declared_function(of, name)
+            .is_some_and(|function| function.params.first().is_some_and(|own| own.name == "self"));
+        let types = match (
+            takes_self.then(|| values.first()).flatten(),
+            self.type_behind(parameter),
+        ) {
+            (Some(first), _) => {
+                let first = self.deref_value(first.clone(), span)?;
+                self.type_names(&first)
+            }
+            (None, Some(ty)) => vec![ty],
+            (None, None) => Vec::new(),
+        };
+        let keys = types
+            .iter()
+            .map(|ty| library.trait_keys(ty, of, name))
+            .find(|keys| !keys.is_empty());
+        let found = self.find_overload(&keys.unwrap_or_default(), values, span)?;
+        Ok(found.map(|key| vec![key.to_owned()]))
     }
 
     /// Returns the types of type parameters: those stated, or those of the arguments whose parameters have these

@@ -109,6 +109,7 @@ impl Lower {
             self.errors.push(error);
         }
         Const {
+            generics: Vec::new(),
             name: item.ident.to_string(),
             value: self.lower_expr(&item.expr),
             ty: self.lower_type(&item.ty),

@@ -224,9 +224,10 @@ impl Lower {
                     .unwrap_or(Type::Tuple(Vec::new()));
                 self.typed_none(held, e.span())
             }
-            syn::Expr::Path(e) => match self.of_type(e) {
-                Some(path) => ExprKind::Path(path),
-                None => self.refuse_expr(expr),
+            syn::Expr::Path(e) => match (self.of_type(e), self.stated_type(&e.path)) {
+                (Some(path), Some(ty)) => self.typed(ExprKind::Path(path), ty, e.span()),
+                (Some(path), None) => ExprKind::Path(path),
+                (None, _) => self.refuse_expr(expr),
             },
             syn::Expr::Unary(e) => self.lower_unary(e),
             syn::Expr::Binary(e) => self.lower_binary(e),
@@ -337,41 +338,70 @@ impl Lower {
         ExprKind::Tuple(Vec::new())
     }
 
-    /// `assert!(condition, "message")` and `matches!(value, pattern)`; there are no other macros.
+    /// `matches!(value, pattern)` and assertions; there are no other macros.
     pub(super) fn macro_call(&mut self, call: &syn::Macro) -> ExprKind {
         if call.path.is_ident("matches") {
             return self.matches_macro(call);
         }
-        if !call.path.is_ident("assert") {
-            self.note_unsupported(
-                call.span(),
-                "a macro other than `assert!` and `matches!`",
-                "write out what it stands for",
-            );
-            return ExprKind::Tuple(Vec::new());
+        let name = call.path.get_ident().map(ToString::to_string).unwrap_or_default();
+        if is_assertion(&name) {
+            return self.assertion(call, &name);
         }
+        let instead = match name.as_str() {
+            "unreachable" => "give any value: nothing reaches it",
+            "panic" | "todo" | "unimplemented" => "give a value: a shader has no way to fail",
+            _ => "write out what it stands for",
+        };
+        self.note_unsupported(call.span(), "a macro other than assertions and `matches!`", instead);
+        ExprKind::Tuple(Vec::new())
+    }
+
+    /// `assert!`, `assert_eq!`, `assert_ne!`, and those of debug builds.
+    fn assertion(&mut self, call: &syn::Macro, name: &str) -> ExprKind {
         let parser = Punctuated::<syn::Expr, syn::Token![,]>::parse_terminated;
         let parts = call
             .parse_body_with(parser)
             .map(|parts| parts.into_iter().collect::<Vec<_>>());
-        match parts.as_deref() {
-            Ok(
-                [
-                    condition,
-                    syn::Expr::Lit(syn::ExprLit {
-                        lit: syn::Lit::Str(message),
-                        ..
-                    }),
-                ],
-            ) if !message.value().contains(['{', '}']) => ExprKind::Assert(self.boxed(condition), message.value()),
+        let parts = parts.unwrap_or_default();
+        let (kind, only_debug) = match name.strip_prefix("debug_") {
+            Some(kind) => (kind, true),
+            None => (name, false),
+        };
+        let (condition, message) = match (kind, parts.as_slice()) {
+            ("assert", [condition, message @ ..]) => (condition.clone(), message),
+            ("assert_eq", [a, b, message @ ..]) => (syn::parse_quote!(#a == #b), message),
+            ("assert_ne", [a, b, message @ ..]) => (syn::parse_quote!(#a != #b), message),
             _ => {
                 self.note_unsupported(
                     call.span(),
-                    "this `assert!`",
-                    "give a condition and a message without values: `assert!(radius > 0, \"no radius\")`",
+                    "an assertion without a condition",
+                    "write `assert!(radius > 0)`",
                 );
-                ExprKind::Tuple(Vec::new())
+                return ExprKind::Tuple(Vec::new());
             }
+        };
+        let message = match message {
+            [] => format!(
+                "assertion failed: `{}`",
+                crate::shorten(&super::cfg::as_written(&condition))
+            ),
+            [
+                syn::Expr::Lit(syn::ExprLit {
+                    lit: syn::Lit::Str(message),
+                    ..
+                }),
+            ] if !message.value().contains(['{', '}']) => message.value(),
+            _ => {
+                let instead = "give a message without values: `assert!(radius > 0, \"no radius\")`";
+                self.note_unsupported(call.span(), "a message with values", instead);
+                return ExprKind::Tuple(Vec::new());
+            }
+        };
+        let condition = self.boxed(&condition);
+        ExprKind::Assert {
+            condition,
+            message,
+            only_debug,
         }
     }
 
@@ -441,7 +471,7 @@ impl Lower {
                 let mut owner = path.path.clone();
                 owner.segments.pop();
                 owner.segments.pop_punct();
-                if let Some(ty) = self.stated_type(&owner) {
+                if let Some(ty) = self.stated_type(&owner).or_else(|| self.generic_self(&owner)) {
                     let span = self.token_span(owner.span());
                     let unit = Box::new(Expr {
                         kind: ExprKind::Tuple(Vec::new()),
@@ -452,10 +482,16 @@ impl Lower {
                         span,
                     });
                 }
-                ExprKind::Call(called, constants, args)
+                ExprKind::Call(with_trait(path, called), constants, args)
             }
             other => ExprKind::Invoke(self.lower_link(other), args),
         }
+    }
+
+    /// `Self` with the generic parameters of its `impl`.
+    fn generic_self(&self, path: &syn::Path) -> Option<Type> {
+        let own = self.self_type().filter(|_| path.is_ident("Self"))?.peel_refs();
+        matches!(own, Type::Name(_, args) if !args.is_empty()).then(|| own.clone())
     }
 
     /// Generic arguments in `::<>`, in order; a type counts as `()`.
@@ -630,5 +666,25 @@ fn is_assignment(op: &syn::BinOp) -> bool {
             | B::BitOrAssign(_)
             | B::ShlAssign(_)
             | B::ShrAssign(_)
+    )
+}
+
+/// Adds the trait to a call of `<Type as Trait>::name`, unless it is one of Rust's.
+fn with_trait(path: &syn::ExprPath, called: Vec<String>) -> Vec<String> {
+    let position = path.qself.as_ref().map_or(0, |own| own.position);
+    let of = position.checked_sub(1).and_then(|last| path.path.segments.get(last));
+    match (of, called.as_slice()) {
+        (Some(of), [ty, name]) if !super::rust_traits::is_of_rust(&of.ident.to_string()) && !ty.contains("::") => {
+            vec![ty.clone(), of.ident.to_string(), name.clone()]
+        }
+        _ => called,
+    }
+}
+
+/// Returns whether a macro of this name is an assertion.
+pub fn is_assertion(name: &str) -> bool {
+    matches!(
+        name.strip_prefix("debug_").unwrap_or(name),
+        "assert" | "assert_eq" | "assert_ne"
     )
 }

@@ -339,6 +339,7 @@ impl Items {
             lower.half.push(sig.ident.to_string());
         }
         let function = Function {
+            default_of: None,
             docs: doc_text(attrs),
             half: std::mem::take(&mut lower.half),
             unroll: lower.unroll_of_function(attrs),
@@ -465,9 +466,13 @@ impl Items {
                         self.note_duplicate(&lower, c.ident.span(), &name);
                     }
                     self.note_errors_of(&name, lower.errors);
-                    self.library
-                        .consts
-                        .insert(name.clone(), super::tree::Const { name, value, ty });
+                    let constant = super::tree::Const {
+                        name: name.clone(),
+                        generics: of.generics.clone(),
+                        value,
+                        ty,
+                    };
+                    self.library.consts.insert(name, constant);
                     &c.ident
                 }
                 syn::ImplItem::Type(t) => {

@@ -91,7 +91,7 @@ pub fn has_method(ty: Type, name: &str) -> bool {
 
 /// Returns whether numbers or vectors have an inherent method of a name, which takes precedence over one of a trait.
 pub fn is_inherent(ty: &str, name: &str) -> bool {
-    let ty = match (ty, crate::front::tree::vector_named(ty)) {
+    let value = match (ty, crate::front::tree::vector_named(ty)) {
         (_, Some((kind, lanes))) => Type::value(kind, lanes),
         ("f32", _) => Type::F32,
         ("i32", _) => Type::I32,
@@ -100,5 +100,5 @@ pub fn is_inherent(ty: &str, name: &str) -> bool {
         ("bool", _) => Type::BOOL,
         _ => return false,
     };
-    has_method(ty, name)
+    has_method(value, name) || super::std::has_function(ty, name)
 }

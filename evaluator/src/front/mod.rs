@@ -35,6 +35,7 @@ mod raw;
 mod reach;
 mod receivers;
 mod recursive;
+mod rust_traits;
 mod scan;
 pub mod std;
 mod targets;
@@ -54,8 +55,8 @@ pub use foreign::{is_by_last, is_prelude_type};
 pub use kernels::kernel_of;
 pub use looping::looping_statements;
 pub use raw::{raw_name, unraw};
+pub use rust_traits::is_of_rust;
 pub use scan::{child_exprs, has_break, mentioned_in, scan_effects};
-pub use traits::is_of_rust;
 pub use tree::Library;
 pub use whiles::guard_body;
 

@@ -91,7 +91,7 @@ fn declared_signature<'t>(declared: &'t syn::ItemTrait, name: &syn::Ident) -> Op
 /// Receiver of the functions of a trait of Rust; `None` if they have none, or several.
 fn receiver_in_rust(trait_name: &str) -> Option<&'static str> {
     match trait_name {
-        name if WITHOUT.contains(&name) || !super::traits::is_operator(name) => None,
+        name if WITHOUT.contains(&name) || !super::rust_traits::is_operator(name) => None,
         name if BY_REFERENCE.contains(&name) => Some("&self"),
         name if name.ends_with("Assign") || name == "IndexMut" => Some("&mut self"),
         _ => Some("self"),

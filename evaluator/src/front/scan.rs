@@ -215,7 +215,7 @@ pub fn child_exprs(e: &Expr) -> Vec<&Expr> {
         ExprKind::Unary(_, a)
         | ExprKind::Field(a, _)
         | ExprKind::Cast(a, _)
-        | ExprKind::Assert(a, _)
+        | ExprKind::Assert { condition: a, .. }
         | ExprKind::Try(a)
         | ExprKind::Ref(_, a)
         | ExprKind::Deref(a) => vec![a],

@@ -5,6 +5,7 @@
 use super::check::Check;
 use super::expr::Lower;
 use super::items::{Items, Owner, qualified_name};
+use super::rust_traits::{OF_STD, OPERATORS, OWN, is_of_rust};
 use super::tree::{Implemented, Trait, Type};
 use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Span, TokenStream};
@@ -12,85 +13,6 @@ use quote::ToTokens;
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 use syn::spanned::Spanned;
-
-/// Traits of Rust whose functions nothing calls by their names: operators, and the end of a scope.
-const OPERATORS: [&str; 32] = [
-    "Add",
-    "AddAssign",
-    "BitAnd",
-    "BitAndAssign",
-    "BitOr",
-    "BitOrAssign",
-    "BitXor",
-    "BitXorAssign",
-    "Div",
-    "DivAssign",
-    "From",
-    "Index",
-    "IndexMut",
-    "Mul",
-    "MulAssign",
-    "Neg",
-    "Not",
-    "Ord",
-    "PartialEq",
-    "PartialOrd",
-    "Product",
-    "Rem",
-    "RemAssign",
-    "Shl",
-    "ShlAssign",
-    "Shr",
-    "ShrAssign",
-    "Sub",
-    "SubAssign",
-    "Sum",
-    "Into",
-    "Default",
-];
-
-/// Traits of Rust that the generator gives a meaning of its own, so that none can be given by hand.
-const OWN: [&str; 4] = ["Drop", "Deref", "DerefMut", "Iterator"];
-
-/// Further traits of Rust's prelude, which kernels have no use for.
-const OF_STD: [&str; 13] = [
-    "AsMut",
-    "AsRef",
-    "DoubleEndedIterator",
-    "ExactSizeIterator",
-    "Extend",
-    "FromIterator",
-    "Send",
-    "Sync",
-    "ToOwned",
-    "ToString",
-    "TryFrom",
-    "TryInto",
-    "Unpin",
-];
-
-/// Returns whether a trait is one of Rust's whose functions nothing calls by their names.
-pub fn is_operator(name: &str) -> bool {
-    OPERATORS.contains(&name)
-}
-
-/// Returns whether a trait is one of Rust's that may bound the functions of kernels.
-pub fn is_of_rust(name: &str) -> bool {
-    OPERATORS.contains(&name)
-        || OWN.contains(&name)
-        || [
-            "Copy",
-            "Clone",
-            "Sized",
-            "Eq",
-            "Debug",
-            "Fn",
-            "FnMut",
-            "FnOnce",
-            "IntoIterator",
-        ]
-        .contains(&name)
-}
 
 impl Items {
     /// Notes a trait of the kernel's files.
@@ -247,12 +169,13 @@ impl Items {
         let mut errors = lower.errors;
         errors.extend(check.into_errors());
         let given: BTreeSet<String> = item.items.iter().filter_map(item_name).collect();
-        let mut all: Vec<(u32, syn::ImplItem)> = item.items.iter().map(|inner| (file, inner.clone())).collect();
+        let own = item.items.iter().map(|inner| (file, inner.clone(), false));
+        let mut all: Vec<(u32, syn::ImplItem, bool)> = own.collect();
         if let Some((at, declared)) = &declared {
             errors.extend(self.missing_members(file, &path, declared, &given));
             let taken = declared.items.iter().filter_map(default_of);
             let taken = taken.filter(|inner| item_name(inner).is_some_and(|name| !given.contains(&name)));
-            all.extend(taken.map(|inner| (*at, inner)));
+            all.extend(taken.map(|inner| (*at, inner, true)));
             errors.extend(self.not_members(file, &trait_name, declared, &item.items));
         }
         // An implementation with a wrong receiver is reached as a right one is.
@@ -264,12 +187,14 @@ impl Items {
         }
         self.implementation_errors.extend(unlike.iter().cloned());
         errors.extend(unlike);
-        let named = Named {
+        let mut named = Named {
+            is_default: false,
             trait_name: &trait_name,
             args: &args,
             shown: format_trait(&path),
         };
-        for (file, mut inner) in all {
+        for (file, mut inner, is_default) in all {
+            named.is_default = is_default;
             self.add_impl_item(file, &mut inner, &owner, &named, item, &errors);
         }
         if is_reached {
@@ -302,7 +227,8 @@ impl Items {
                     self.note_duplicate(&self.lower_of(file), f.sig.ident.span(), &plain);
                     return;
                 }
-                let (function, lowered) = self.lower_function(file, &f.sig, &f.block, &f.attrs, Some(owner));
+                let (mut function, lowered) = self.lower_function(file, &f.sig, &f.block, &f.attrs, Some(owner));
+                function.default_of = named.is_default.then(|| named.trait_name.to_owned());
                 self.note_errors_of(&key, lowered);
                 self.insert(&key, &f.sig.ident, function);
                 self.library.implemented.entry(plain).or_default().push(Implemented {
@@ -328,6 +254,7 @@ impl Items {
                 self.note_errors_of(&name, lower.errors);
                 let constant = super::tree::Const {
                     name: name.clone(),
+                    generics: owner.generics.clone(),
                     value,
                     ty,
                 };
@@ -509,6 +436,8 @@ impl Items {
 /// The trait of an implementation.
 struct Named<'t> {
     trait_name: &'t str,
+    /// `true` of a default function.
+    is_default: bool,
     args: &'t [Type],
     /// As it is written.
     shown: String,

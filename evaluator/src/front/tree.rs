@@ -88,7 +88,14 @@ pub enum ExprKind {
     /// `continue`, of the loop with a label.
     Continue(Option<String>),
     /// `assert!(condition, "message")`.
-    Assert(Box<Expr>, String),
+    Assert {
+        /// The condition, a boolean.
+        condition: Box<Expr>,
+        /// Message of the error if it does not hold.
+        message: String,
+        /// `true` if release builds of Rust leave it out.
+        only_debug: bool,
+    },
     /// `|a, b| value`.
     Closure(Arc<Closure>),
 }
@@ -420,6 +427,8 @@ pub struct Function {
     pub of: Option<Type>,
     /// The traits that type parameters have, by their names.
     pub bounds: HashMap<String, Vec<String>>,
+    /// Trait whose default function it is.
+    pub default_of: Option<String>,
     /// Parameters in order.
     pub params: Vec<Param>,
     /// Type of the result; `()` is an empty tuple.
@@ -462,6 +471,8 @@ impl Function {
 pub struct Const {
     /// Name, or `Type::NAME`.
     pub name: String,
+    /// Generic parameters of its `impl`.
+    pub generics: Vec<Generic>,
     /// Value.
     pub value: Expr,
     /// Type.
@@ -539,6 +550,18 @@ pub struct Implemented {
     pub key: String,
 }
 
+/// Name of a trait's function for a type: `<T as Shape>::area`. The type may be a type parameter.
+pub fn qualify_name(ty: &str, of: &str, name: &str) -> String {
+    format!("<{ty} as {of}>::{name}")
+}
+
+/// The type, trait and function of a name that [`qualify_name`] made.
+pub fn split_qualified(text: &str) -> Option<(&str, &str, &str)> {
+    let (owner, name) = text.strip_prefix('<')?.rsplit_once(">::")?;
+    let (ty, of) = owner.split_once(" as ")?;
+    Some((ty, of, name))
+}
+
 /// A line of `options!`.
 #[derive(Clone, Debug)]
 pub struct OptionField {
@@ -605,8 +628,8 @@ impl Library {
         }
     }
 
-    /// The functions of an operator's trait that a type has.
-    pub fn operator_keys(&self, ty: &str, of: &str, name: &str) -> Vec<&str> {
+    /// Keys of the functions that a trait gives a type.
+    pub fn trait_keys(&self, ty: &str, of: &str, name: &str) -> Vec<&str> {
         let of_traits = self.implemented.get(&format!("{ty}::{name}"));
         let of_traits = of_traits.into_iter().flatten().filter(|i| i.of == of);
         of_traits.map(|i| i.key.as_str()).collect()
@@ -614,9 +637,14 @@ impl Library {
 
     /// The function of a trait, or of one that it needs.
     pub fn declared_function(&self, of: &str, name: &str) -> Option<&Function> {
-        let found = self.traits.get(of)?;
-        let supers = || found.supers.iter().find_map(|of| self.declared_function(of, name));
-        found.functions.get(name).or_else(supers)
+        self.declaring_trait(of, name).map(|(_, function)| function)
+    }
+
+    /// The trait that declares a function, which is `of` or one that it needs.
+    pub fn declaring_trait(&self, of: &str, name: &str) -> Option<(&str, &Function)> {
+        let (of, found) = self.traits.get_key_value(of)?;
+        let own = found.functions.get(name).map(|function| (of.as_str(), function));
+        own.or_else(|| found.supers.iter().find_map(|of| self.declaring_trait(of, name)))
     }
 
     /// The type of a constant of a trait, or of one that it needs.

@@ -68,7 +68,7 @@ fn apply_to_expr(e: &mut Expr, known: &Known) {
         | ExprKind::Ref(_, a)
         | ExprKind::Deref(a)
         | ExprKind::Field(a, _)
-        | ExprKind::Assert(a, _)
+        | ExprKind::Assert { condition: a, .. }
         | ExprKind::Try(a) => {
             go(a);
         }

@@ -25,12 +25,12 @@ impl<'l> Checker<'l> {
         }
         let (bare, mut reference) = self.peel_refs(&ty);
         if let Ty::Param(parameter) = &bare
-            && let Some(function) = self.declared_of(parameter, name)
+            && let Some((of, function)) = self.declared_of(parameter, name)
         {
             if function.params.first().is_some_and(|own| own.ty.is_mutable_reference()) {
                 self.check_mutable_receiver(access, reference, receiver);
             }
-            return self.of_parameter(parameter, function, Some(&ty), args, span);
+            return self.of_parameter(parameter, (of, function), name, Some(&ty), args, span);
         }
         let settled = match &bare {
             Ty::Struct(..) | Ty::Enum(..) => bare.clone(),
@@ -41,7 +41,7 @@ impl<'l> Checker<'l> {
             .filter(|_| self.table.variable_kind(&settled).is_none());
         if let Some(of) = of.filter(|_| !(matches!(settled, Ty::Int(_)) && is_evaluated_method(name))) {
             let library = self.library;
-            let keys = library.method_keys(&of, name);
+            let keys = self.keys_of(&of, name);
             if let Some(function) = keys.first().map(|key| &library.functions[*key]) {
                 if function.params.first().is_some_and(|own| own.ty.is_mutable_reference()) {
                     self.check_mutable_receiver(access, reference, receiver);

@@ -23,7 +23,7 @@ mod traits;
 mod types;
 
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Const, Expr, Fields, Function, Generic, IntType, Library};
+use crate::front::tree::{Const, Expr, Fields, Function, Generic, IntType, Library, Type as SourceType};
 use std::collections::{BTreeSet, HashMap};
 use types::{Kind, Table, Ty};
 
@@ -225,6 +225,8 @@ struct Checker<'l> {
     params: Vec<String>,
     /// The traits that they have.
     bounds: Option<&'l HashMap<String, Vec<String>>>,
+    /// Type and trait of the default function that is checked.
+    default_of: Option<(&'l str, &'l str)>,
     /// Calls of which the function follows from what it has to give.
     pending: Vec<traits::Pending>,
     /// Type parameters of calls that have to have traits.
@@ -261,6 +263,7 @@ impl<'l> Checker<'l> {
             locals: Vec::new(),
             params: Vec::new(),
             bounds: None,
+            default_of: None,
             pending: Vec::new(),
             bounded: Vec::new(),
             instances: Vec::new(),
@@ -280,6 +283,10 @@ impl<'l> Checker<'l> {
 
     fn check_function(&mut self, function: &'l Function) {
         self.bounds = Some(&function.bounds);
+        self.default_of = match (&function.of, &function.default_of) {
+            (Some(SourceType::Name(ty, _)), Some(of)) => Some((ty, of)),
+            _ => None,
+        };
         self.declare_generics(&function.generics, function.span);
         for name in function.bounds.keys().filter(|name| name.starts_with("dyn ")) {
             self.check_trait_object(name, function.span);
@@ -324,6 +331,7 @@ impl<'l> Checker<'l> {
     }
 
     fn check_constant(&mut self, constant: &'l Const) {
+        self.declare_generics(&constant.generics, constant.value.span);
         let ty = self.convert_type(&constant.ty, constant.value.span);
         self.check_expr(&constant.value, &ty);
     }

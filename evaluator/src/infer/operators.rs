@@ -47,7 +47,7 @@ impl<'l> Checker<'l> {
         }
         let keys = super::traits::trait_of(op)
             .zip(self.type_name(&left))
-            .map(|((of, name), ty)| self.library.operator_keys(&ty, of, name).len());
+            .map(|((of, name), ty)| self.library.trait_keys(&ty, of, name).len());
         keys == Some(1)
     }
 

@@ -3,7 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Expr, Function, Generic};
+use crate::front::tree::{Expr, Function, Generic, qualify_name, split_qualified};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
 
@@ -126,6 +126,26 @@ impl<'l> Checker<'l> {
             );
             return Ty::Unknown;
         };
+        let is_settled = |ty: &Ty| {
+            let bare = self.peel_refs(ty).0;
+            self.table.variable_kind(&bare).is_none() && !matches!(bare, Ty::Unknown)
+        };
+        let others: Vec<&str> = match found.iter().all(is_settled) {
+            true => keys.iter().copied().filter(|other| *other != key).collect(),
+            false => Vec::new(),
+        };
+        if let Some((other, _)) = self.select_overload(&others, found) {
+            self.errors.push(
+                Diagnostic::error_at(
+                    Code::TraitBound,
+                    span,
+                    format!("`{key}` or `{other}`: the arguments do not tell which"),
+                )
+                .label("called here")
+                .help("give the functions of these implementations other names"),
+            );
+            return Ty::Unknown;
+        }
         self.methods.insert(span, key.to_owned());
         self.called_with(function, key, found, span)
     }
@@ -190,11 +210,27 @@ impl<'l> Checker<'l> {
             .collect()
     }
 
-    /// The function of a trait that a type parameter has.
-    pub fn declared_of(&self, parameter: &str, name: &str) -> Option<&'l Function> {
+    /// The trait of a type parameter that declares a function, and the function.
+    pub fn declared_of(&self, parameter: &str, name: &str) -> Option<(&'l str, &'l Function)> {
         let library = self.library;
         let traits = self.traits_of(parameter);
-        traits.iter().find_map(|of| library.declared_function(of, name))
+        traits.iter().find_map(|of| library.declaring_trait(of, name))
+    }
+
+    /// Keys of the functions that a name of a type means. A function of the type itself precedes those of traits. In a default
+    /// function of a trait, of which nothing but this trait is known, `Self` has the trait's functions.
+    pub fn keys_of(&self, ty: &str, name: &str) -> Vec<&'l str> {
+        let library = self.library;
+        if let Some((own, of)) = self.default_of.filter(|(own, _)| *own == ty)
+            && let Some((of, _)) = library.declaring_trait(of, name)
+        {
+            return library.trait_keys(own, of, name);
+        }
+        let mut keys = library.method_keys(ty, name);
+        if crate::front::methods::is_inherent(ty, name) {
+            keys.retain(|key| split_qualified(key).is_none());
+        }
+        keys
     }
 
     /// The type of a constant of a type parameter.
@@ -223,8 +259,10 @@ impl<'l> Checker<'l> {
             .label("not supported")
             .help("take a reference to a trait of the kernel's own, or the value itself"),
             Some(found) => {
+                let is_sized = |f: &Function| f.bounds.get("Self").is_some_and(|of| of.iter().any(|of| of == "Sized"));
                 let takes_self = |f: &Function| f.params.first().is_some_and(|own| own.name == "self");
-                if found.consts.is_empty() && found.functions.values().all(takes_self) {
+                let is_compatible = |f: &Function| takes_self(f) || is_sized(f);
+                if found.consts.is_empty() && found.functions.values().all(is_compatible) {
                     return;
                 }
                 Diagnostic::error_at(Code::DynTrait, span, format!("the trait `{of}` is not dyn compatible"))
@@ -269,17 +307,19 @@ impl<'l> Checker<'l> {
         }
     }
 
-    /// A call of a function of a type parameter's trait.
+    /// A call of a function of a type parameter's trait. Evaluation finds the function of this trait for the parameter's type.
     pub fn of_parameter(
         &mut self,
         parameter: &str,
-        function: &'l Function,
+        (of, function): (&'l str, &'l Function),
+        name: &str,
         receiver: Option<&Ty>,
         args: &'l [Expr],
         span: Span,
     ) -> Ty {
         let mut given = self.instantiate_function(function, &[]);
         given.insert("Self".to_owned(), Ty::Param(parameter.to_owned()));
+        self.methods.insert(span, qualify_name(parameter, of, name));
         self.with_given(function, given, receiver, args, span)
     }
 
@@ -290,7 +330,7 @@ impl<'l> Checker<'l> {
             return None;
         }
         let library = self.library;
-        let keys = library.operator_keys(&self.type_name(&self.peel_refs(left).0)?, of, name);
+        let keys = library.trait_keys(&self.type_name(&self.peel_refs(left).0)?, of, name);
         for key in keys {
             let function = &library.functions[key];
             let [own, other] = function.params.as_slice() else {
@@ -325,7 +365,7 @@ impl<'l> Checker<'l> {
         let (Ty::Struct(ty, _) | Ty::Enum(ty, _)) = self.table.resolve_shallow(operand) else {
             return None;
         };
-        let function = &library.functions[*library.operator_keys(&ty, of, name).first()?];
+        let function = &library.functions[*library.trait_keys(&ty, of, name).first()?];
         let given = self.instantiate_function(function, &[]);
         let own = self.substitute_type(&function.params.first()?.ty, &given, function.span);
         self.table.unify(&own, operand);
@@ -336,7 +376,7 @@ impl<'l> Checker<'l> {
     pub fn infer_indexed(&mut self, base: &Ty, index: &Ty) -> Option<Ty> {
         let Ty::Struct(ty, _) = base else { return None };
         let library = self.library;
-        let keys = library.operator_keys(ty, "Index", "index");
+        let keys = library.trait_keys(ty, "Index", "index");
         let (key, function) = self.select_overload(&keys, &[base.clone(), index.clone()])?;
         let _ = key;
         let given = self.instantiate_function(function, &[]);
@@ -453,7 +493,7 @@ impl<'l> Checker<'l> {
         known == of || supers.iter().any(|known| self.has_trait(known, of))
     }
 
-    fn note_unsatisfied(&mut self, ty: &str, of: &str, span: Span) {
+    pub fn note_unsatisfied(&mut self, ty: &str, of: &str, span: Span) {
         self.errors.push(
             Diagnostic::error_at(
                 Code::TraitBound,

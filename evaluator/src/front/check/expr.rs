@@ -2,7 +2,7 @@
 
 use super::super::cfg::Carrier;
 use super::super::choice::MatchesSyntax;
-use super::super::expr::{COUNTS_LINKS, DEPTH};
+use super::super::expr::{COUNTS_LINKS, DEPTH, is_assertion};
 use super::Check;
 use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{TokenStream, TokenTree};
@@ -205,7 +205,7 @@ impl Check {
         }
     }
 
-    /// Checks the arguments of `assert!` and `matches!`; the lowering refuses other macros.
+    /// Checks the arguments of assertions and `matches!`; the lowering refuses other macros.
     fn macro_call(&mut self, call: &mut syn::Macro) {
         if call.path.is_ident("matches") {
             if let Ok(mut body) = call.parse_body::<MatchesSyntax>() {
@@ -216,7 +216,11 @@ impl Check {
             return;
         }
         let parser = Punctuated::<syn::Expr, syn::Token![,]>::parse_terminated;
-        if !call.path.is_ident("assert") {
+        if !call
+            .path
+            .get_ident()
+            .is_some_and(|name| is_assertion(&name.to_string()))
+        {
             return;
         }
         if let Ok(mut parts) = call.parse_body_with(parser) {
@@ -225,8 +229,8 @@ impl Check {
             if parts.len() != before {
                 self.refuse(
                     call.span(),
-                    "`#[cfg(..)]` in an `assert!`",
-                    "put it before the `assert!`",
+                    "`#[cfg(..)]` in an assertion",
+                    "put it before the assertion",
                 );
             }
         }

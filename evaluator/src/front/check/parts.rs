@@ -114,7 +114,7 @@ impl Check {
         self.refuse(path.span(), &format!("the type `{name}`"), instead);
     }
 
-    /// A path, of which the last two segments count; `last` tells whether the last may have generic arguments.
+    /// A path, of which the last two segments count; `last` tells whether the last may have generic arguments. A type may.
     pub fn check_path(&mut self, path: &mut syn::Path, last: bool) {
         let count = path.segments.len();
         for (k, segment) in path.segments.iter_mut().enumerate() {
@@ -128,7 +128,9 @@ impl Check {
                 }
             };
             let of_type = segment.ident.to_string().starts_with(char::is_uppercase);
-            if !last || k + 2 < count || (k + 1 < count && !of_type) {
+            // A structure without fields is a value: `Window::<3>`.
+            let is_value = of_type && k + 1 == count;
+            if !(last || is_value) || k + 2 < count || (k + 1 < count && !of_type) {
                 let shown = super::super::cfg::as_written(list);
                 let shown = shown.trim_start_matches("::").to_owned();
                 let span = list.span();

@@ -133,6 +133,33 @@ impl usize {
     fn checked_sub(self, other: usize) -> Option<usize> {
         if self < other { None } else { Some(self - other) }
     }
+
+    fn leading_zeros(self) -> u32 {
+        let high = ((self >> 16) >> 16) as u32;
+        if high > 0 { high.leading_zeros() } else { (self as u32).leading_zeros() + 32 }
+    }
+
+    fn trailing_zeros(self) -> u32 {
+        let low = self as u32;
+        if low > 0 { low.trailing_zeros() } else { (((self >> 16) >> 16) as u32).trailing_zeros() + 32 }
+    }
+
+    fn ilog2(self) -> u32 {
+        63_u32.wrapping_sub(self.leading_zeros())
+    }
+
+    fn checked_ilog2(self) -> Option<u32> {
+        if self > 0 { Some(self.ilog2()) } else { None }
+    }
+
+    fn next_power_of_two(self) -> usize {
+        if self <= 1 { 1 } else { 1_usize << (64_u32 - (self - 1).leading_zeros()) }
+    }
+
+    fn next_multiple_of(self, of: usize) -> usize {
+        let rest = self % of;
+        if rest == 0 { self } else { self + (of - rest) }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

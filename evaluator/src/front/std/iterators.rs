@@ -90,6 +90,79 @@ impl<T> __Filtered<T> {
         None
     }
 
+    fn find(self, f: impl Fn(&T) -> bool) -> Option<T> {
+        for x in self.items {
+            if let Some(x) = x {
+                if f(&x) {
+                    return Some(x);
+                }
+            }
+        }
+        None
+    }
+
+    fn find_map<U>(self, f: impl Fn(T) -> Option<U>) -> Option<U> {
+        for x in self.items {
+            if let Some(x) = x {
+                let found = f(x);
+                if found.is_some() {
+                    return found;
+                }
+            }
+        }
+        None
+    }
+
+    fn position(self, f: impl Fn(T) -> bool) -> Option<usize> {
+        let mut n = 0;
+        for x in self.items {
+            if let Some(x) = x {
+                if f(x) {
+                    return Some(n);
+                }
+                n += 1;
+            }
+        }
+        None
+    }
+
+    fn reduce(self, f: impl Fn(T, T) -> T) -> Option<T> {
+        let mut all = None;
+        for x in self.items {
+            if let Some(x) = x {
+                all = match all {
+                    None => Some(x),
+                    Some(all) => Some(f(all, x)),
+                };
+            }
+        }
+        all
+    }
+
+    fn min(self) -> Option<T> {
+        self.reduce(|least, x| if x < least { x } else { least })
+    }
+
+    fn max(self) -> Option<T> {
+        self.reduce(|largest, x| if x < largest { largest } else { x })
+    }
+
+    fn min_by(self, f: impl Fn(&T, &T) -> Ordering) -> Option<T> {
+        self.reduce(|least, x| if f(&least, &x).is_gt() { x } else { least })
+    }
+
+    fn max_by(self, f: impl Fn(&T, &T) -> Ordering) -> Option<T> {
+        self.reduce(|largest, x| if f(&largest, &x).is_gt() { largest } else { x })
+    }
+
+    fn min_by_key<K>(self, f: impl Fn(&T) -> K) -> Option<T> {
+        self.reduce(|least, x| if f(&x) < f(&least) { x } else { least })
+    }
+
+    fn max_by_key<K>(self, f: impl Fn(&T) -> K) -> Option<T> {
+        self.reduce(|largest, x| if f(&x) < f(&largest) { largest } else { x })
+    }
+
     fn last(self) -> Option<T> {
         let mut last = None;
         for x in self.items {

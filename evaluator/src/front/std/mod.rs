@@ -96,6 +96,12 @@ pub fn function_names(ty: &str) -> Vec<&'static str> {
     names
 }
 
+/// Returns whether a type has a function in these texts.
+pub fn has_function(ty: &str, name: &str) -> bool {
+    let mut of_type = pieces().iter().filter(|piece| piece.type_name() == ty);
+    of_type.any(|piece| piece.names.iter().any(|known| known == name))
+}
+
 /// The functions, those of a type in an `impl` of it.
 fn written<'p>(taken: impl Iterator<Item = &'p Piece>) -> String {
     let mut by_type: BTreeMap<&str, Vec<&str>> = BTreeMap::new();

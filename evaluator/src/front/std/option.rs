@@ -10,6 +10,9 @@ enum Result<T, E> {
     Err(E),
 }
 
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct PhantomData<T>;
+
 impl<T> Option<T> {
     fn is_some(&self) -> bool {
         matches!(self, Some(_))
