@@ -56,6 +56,7 @@ pub mod drawing;
 pub mod emit;
 pub mod footprint;
 mod kernel;
+mod overridden;
 mod pipeline;
 pub mod spec;
 mod stages;

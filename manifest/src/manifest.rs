@@ -1,7 +1,7 @@
 //! The manifest: everything that a host must know of one shader, as JSON.
 
 use crate::chain::CHAIN_SCHEMA;
-use crate::{Binding, Form, LanguageBinding, Origin, Output, Precision, Stage, Tuned, ValueType, output};
+use crate::{Binding, Form, LanguageBinding, Origin, Output, Override, Precision, Stage, Tuned, ValueType, output};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -61,6 +61,10 @@ pub struct Manifest {
     /// unnecessary is not listed. Together with `outputs` this is the bind group layout, in WebGPU's words, and all that WGSL
     /// and SPIR-V bind.
     pub bindings: Vec<Binding>,
+    /// Options that the host may set when it creates the pipeline, in the order of the kernel's options. One that the shader
+    /// does not read is not listed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub overrides: Vec<Override>,
     /// All that the other languages bind, each by its own numbers, registers or names; of functions, their parameters in order,
     /// in WGSL too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -69,7 +73,8 @@ pub struct Manifest {
     /// tuple has an output for each of its fields.
     #[serde(rename = "output", with = "output")]
     pub outputs: Vec<Output>,
-    /// Every option of the kernel with the value it was generated for; `uniform` for one that is set at run time.
+    /// Every option of the kernel with the value it was generated for; `uniform` for one that is set at run time,
+    /// and `override(DEFAULT)` for one that is set when the pipeline is created.
     pub options: BTreeMap<String, String>,
     /// Operation counts of one invocation.
     pub counts: Counts,

@@ -135,7 +135,7 @@ fn print_meanings(description: &Description) {
 fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
     if let (Some(chain), false) = (Chain::from_argument(name)?, as_json) {
         outln!("{}: a chain of passes", chain.name());
-        print_options(&chain.options()?);
+        print_options(&chain.options()?, &|_| Ok(None))?;
         return Ok(());
     }
     let kernel = Kernel::from_argument(name)?;
@@ -150,17 +150,40 @@ fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
         outln!("\nPresets, for `--set preset=NAME`; options set beside one override its own:");
         kernel.presets().iter().for_each(print_preset);
     }
-    print_options(&options);
+    print_options(&options, &|name| overridable(&kernel, name))
+}
+
+/// Text on an option that says whether it can be overridden, if that is known.
+type Overridable<'a> = dyn Fn(&str) -> Result<Option<String>, Failure> + 'a;
+
+fn print_options(options: &[OptionInfo], overridable: &Overridable<'_>) -> Result<(), Failure> {
+    if options.is_empty() {
+        outln!("\nIt has no options.");
+        return Ok(());
+    }
+    outln!("\nOptions, for `--set OPTION=VALUE`:");
+    for option in options {
+        print_option(option);
+        let is_single = matches!(option.kind, OptionKind::Number(_) | OptionKind::Flag);
+        if let Some(text) = is_single.then(|| overridable(&option.name)).transpose()?.flatten() {
+            outln!("{}", wrap_text(&text, WIDTH, "    ", "      "));
+        }
+    }
     Ok(())
 }
 
-fn print_options(options: &[OptionInfo]) {
-    if options.is_empty() {
-        outln!("\nIt has no options.");
-        return;
-    }
-    outln!("\nOptions, for `--set OPTION=VALUE`:");
-    options.iter().for_each(print_option);
+/// Says of an option whether it can be overridden, and where a constant is needed if not.
+fn overridable(kernel: &Kernel, option: &str) -> Result<Option<String>, Failure> {
+    let Some(refused) = kernel.override_refusal(option)? else {
+        return Ok(Some("can be overridden: `--override`".to_owned()));
+    };
+    let reason = refused.message.split_once(": ").map_or("", |(_, reason)| reason);
+    let place = refused.span.and_then(|span| {
+        let file = kernel.files().get(span.file as usize)?;
+        Some(format!(" ({}:{})", file.path, span.line))
+    });
+    let place = place.unwrap_or_default();
+    Ok(Some(format!("cannot be overridden: {reason}{place}")))
 }
 
 fn print_preset(preset: &Preset) {
@@ -253,7 +276,9 @@ fn engine_json(engine: &Engine) -> Value {
 
 fn kernel_json(kernel: &Kernel) -> Result<Value, Failure> {
     let summary = straightline_kernels::find(kernel.name()).map(|entry| entry.summary);
-    let options: Vec<Value> = kernel.options()?.iter().map(option_json).collect();
+    let options = kernel.options()?;
+    let options = options.iter().map(|option| option_json(kernel, option));
+    let options = options.collect::<Result<Vec<Value>, Failure>>()?;
     let presets: Vec<Value> = kernel.presets().iter().map(preset_json).collect();
     Ok(json!({ "name": kernel.name(), "summary": summary, "presets": presets, "options": options }))
 }
@@ -262,7 +287,7 @@ fn preset_json(preset: &Preset) -> Value {
     json!({ "name": preset.name, "summary": preset.summary, "options": settings(preset) })
 }
 
-fn option_json(option: &OptionInfo) -> Value {
+fn option_json(kernel: &Kernel, option: &OptionInfo) -> Result<Value, Failure> {
     let values = match &option.kind {
         OptionKind::Choice(values) => json!(
             values
@@ -278,8 +303,12 @@ fn option_json(option: &OptionInfo) -> Value {
         }
         OptionKind::Flag => json!(["true", "false"]),
     };
-    json!({
+    let overridable = match option.kind {
+        OptionKind::Number(_) | OptionKind::Flag => kernel.override_refusal(&option.name)?.is_none(),
+        OptionKind::Choice(_) | OptionKind::List { .. } => false,
+    };
+    Ok(json!({
         "name": option.name, "docs": option.docs, "default": option.default.to_string(), "values": values,
-        "uniform_by_default": option.uniform,
-    })
+        "uniform_by_default": option.uniform, "overridable": overridable,
+    }))
 }

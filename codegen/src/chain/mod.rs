@@ -29,6 +29,7 @@ mod fusion;
 mod memory;
 mod spec;
 
+use crate::overridden;
 use crate::kernel::{Kernel, deep, read_source};
 use std::path::Path;
 use std::sync::Arc;
@@ -138,10 +139,16 @@ impl Chain {
     ///
     /// Every statement that no chain has; all errors of the passes.
     pub fn compile(&self, spec: &ChainSpec) -> Result<CompiledChain, Errors> {
-        let options = self.option_values(&spec.shader.settings.options)?;
-        let chain = deep(|| front::read_chain(&self.files, &self.name, &options))?;
+        let texts = spec.shader.settings.option_texts();
+        let options = self.option_values(&texts)?;
+        let read = |options: &OptionValues| deep(|| front::read_chain(&self.files, &self.name, options));
+        let chain = read(&options).map_err(|errors| {
+            overridden::blame_overrides(&texts, &options, errors, &|texts| {
+                read(&self.option_values(&texts)?).map(drop)
+            })
+        })?;
         let mut compiled = compiler::compile_passes(&self.files, chain, &options, spec)?;
-        compiled.changed = self.changed_options(&spec.shader.settings.options)?;
+        compiled.changed = self.changed_options(&texts)?;
         Ok(compiled)
     }
 

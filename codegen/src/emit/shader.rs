@@ -69,14 +69,15 @@ impl Wgsl {
 
 impl Shader<'_, '_> {
     /// Returns the whole shader, parsed and validated by naga; a function with an entry point that only calls it. With
-    /// `marks`, every exact value is marked ([`legalise::legalise_wgsl`]).
+    /// `marks`, every exact value is marked ([`legalise::legalise_wgsl`]), and overrides are variables with their defaults.
     pub fn validated_module(&self, counts: &Counts, marks: bool) -> Result<translate::Module, Refusal> {
         let kernel = &self.compiled.kernel;
         if !self.resources.options.is_function() && !marks {
             return translate::Module::parse_wgsl(kernel, &self.own_wgsl(counts));
         }
         let whole = self.resources.options.clone().form(Form::Entry);
-        let whole = Resources::from_compiled(self.compiled, &whole)?;
+        let mut whole = Resources::from_compiled(self.compiled, &whole)?;
+        whole.holds_defaults = marks;
         // Entry points return whole texels, and functions the kernel's values.
         let (tree, _) = shader_tree(self.compiled, &whole);
         let wgsl = Wgsl::new(&tree, &whole, marks)?.with_header(&print::header_lines(self.compiled, counts, &whole));

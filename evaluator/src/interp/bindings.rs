@@ -180,7 +180,8 @@ impl<'a> Bindings<'a> {
         self
     }
 
-    /// The components of a uniform; a single number is for every component. One that is not named keeps its default, or 0.
+    /// The components of a uniform, or the value of an override, a boolean as 0 or 1. A single number is for every component.
+    /// One that is not named keeps its default, or 0.
     pub fn uniform(mut self, name: &str, lanes: &[f64]) -> Self {
         self.uniforms.push((name.to_owned(), lanes.to_vec()));
         self

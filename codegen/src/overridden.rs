@@ -1,0 +1,43 @@
+//! Errors that are due to options set when the pipeline is created, whose values the text does not have.
+
+use straightline_evaluator::diagnostic::{Code, Errors};
+use straightline_kernels::{OptionText, OptionValue, OptionValues};
+
+/// Returns the errors of a kernel or chain with the options `texts`, whose values are `values`, so that each names the
+/// override that it is due to: the option that alone makes `compile` fail. Other errors are returned as they are.
+pub fn blame_overrides(
+    texts: &[OptionText],
+    values: &OptionValues,
+    errors: Errors,
+    compile: &dyn Fn(Vec<OptionText>) -> Result<(), Errors>,
+) -> Errors {
+    let overrides: Vec<(&String, &OptionValue)> = values
+        .iter()
+        .filter_map(|(name, value)| match value {
+            OptionValue::Override(default) => Some((name, &**default)),
+            _ => None,
+        })
+        .collect();
+    let with_constants = |kept: Option<&str>| {
+        let spelled = texts.iter().map(|(name, text)| {
+            let constant = overrides.iter().find(|(known, _)| *known == name && kept != Some(name));
+            (name.clone(), constant.map_or(text.clone(), |(_, default)| default.to_string()))
+        });
+        spelled.collect()
+    };
+    if overrides.is_empty() || compile(with_constants(None)).is_err() {
+        return errors;
+    }
+    let mut found = Vec::new();
+    for (name, _) in &overrides {
+        for error in compile(with_constants(Some(name))).err().into_iter().flat_map(|due| due.diagnostics) {
+            let message = format!("the option `{name}` cannot be overridden: {}", error.message);
+            let help = format!("leave `{name}` out of `override`, and emit a shader for each of its values");
+            found.push(error.restated(Code::CannotOverride, message).help(help));
+        }
+    }
+    match found.is_empty() {
+        true => errors,
+        false => Errors::new(found, &errors.files),
+    }
+}
