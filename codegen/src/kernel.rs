@@ -3,7 +3,7 @@
 use crate::compiled::Compiled;
 use crate::emit::Emitted;
 use crate::files::{self, shorten};
-use crate::overridden;
+use crate::overridden::{self, Overridable, reads_override};
 use crate::pipeline::{self, Change, Observer, Source, Start};
 use crate::spec::{Settings, ShaderSpec};
 use std::borrow::Cow;
@@ -408,18 +408,14 @@ impl Kernel {
         }
     }
 
-    /// Reason why an option cannot be overridden, the other options at their defaults; `None` if it can.
+    /// Returns whether an option can be overridden, the other options at their defaults.
     ///
     /// # Errors
     ///
     /// All errors of the kernel without settings.
-    pub fn override_refusal(&self, option: &str) -> Result<Option<Diagnostic>, Errors> {
-        let refused = self.compile(&Settings::new().override_options([option])).err();
-        Ok(match refused.map(|errors| (errors.first_code(), errors)) {
-            None => None,
-            Some((Some(Code::CannotOverride), errors)) => errors.diagnostics.into_iter().next(),
-            Some((_, errors)) => return Err(errors),
-        })
+    pub fn overridable(&self, option: &str) -> Result<Overridable, Errors> {
+        let compiled = self.compile(&Settings::new().override_options([option]));
+        Overridable::from_outcome(compiled.map(|compiled| reads_override(&compiled.graph)))
     }
 
     /// Names of the options whose values differ from those of a kernel without settings.

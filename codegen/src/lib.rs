@@ -65,6 +65,7 @@ pub mod testing;
 pub use compiled::Compiled;
 pub use config::{Config, compile};
 pub use kernel::Kernel;
+pub use overridden::Overridable;
 pub use pipeline::Observer;
 pub use spec::{EmitOptions, KernelConfig, Overrides, Settings, ShaderSpec};
 pub use straightline_evaluator::eval::{LoopReport, Numeric, OptionInfo, OptionKind};

@@ -5,7 +5,8 @@ use crate::failure::Failure;
 use crate::paragraph::wrap_text;
 use serde_json::{Value, json};
 use straightline_codegen::chain::Chain;
-use straightline_codegen::{Kernel, OptionInfo, OptionKind, shorten};
+use straightline_codegen::diagnostic::File;
+use straightline_codegen::{Kernel, OptionInfo, OptionKind, Overridable, shorten};
 use straightline_engines::description::Description;
 use straightline_engines::{Engine, MEANINGS, engine_names};
 use straightline_kernels::{CATALOGUE, Entry, Preset};
@@ -135,8 +136,7 @@ fn print_meanings(description: &Description) {
 fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
     if let (Some(chain), false) = (Chain::from_argument(name)?, as_json) {
         outln!("{}: a chain of passes", chain.name());
-        print_options(&chain.options()?, &|_| Ok(None))?;
-        return Ok(());
+        return print_options(&chain.options()?, &|name| Ok(overridable(chain.overridable(name)?, chain.files())));
     }
     let kernel = Kernel::from_argument(name)?;
     if as_json {
@@ -150,13 +150,13 @@ fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
         outln!("\nPresets, for `--set preset=NAME`; options set beside one override its own:");
         kernel.presets().iter().for_each(print_preset);
     }
-    print_options(&options, &|name| overridable(&kernel, name))
+    print_options(&options, &|name| Ok(overridable(kernel.overridable(name)?, kernel.files())))
 }
 
-/// Text on an option that says whether it can be overridden, if that is known.
-type Overridable<'a> = dyn Fn(&str) -> Result<Option<String>, Failure> + 'a;
+/// Text on an option that says whether it can be overridden.
+type Describe<'a> = dyn Fn(&str) -> Result<String, Failure> + 'a;
 
-fn print_options(options: &[OptionInfo], overridable: &Overridable<'_>) -> Result<(), Failure> {
+fn print_options(options: &[OptionInfo], overridable: &Describe<'_>) -> Result<(), Failure> {
     if options.is_empty() {
         outln!("\nIt has no options.");
         return Ok(());
@@ -165,7 +165,8 @@ fn print_options(options: &[OptionInfo], overridable: &Overridable<'_>) -> Resul
     for option in options {
         print_option(option);
         let is_single = matches!(option.kind, OptionKind::Number(_) | OptionKind::Flag);
-        if let Some(text) = is_single.then(|| overridable(&option.name)).transpose()?.flatten() {
+        if is_single {
+            let text = overridable(&option.name)?;
             outln!("{}", wrap_text(&text, WIDTH, "    ", "      "));
         }
     }
@@ -173,17 +174,18 @@ fn print_options(options: &[OptionInfo], overridable: &Overridable<'_>) -> Resul
 }
 
 /// Says of an option whether it can be overridden, and where a constant is needed if not.
-fn overridable(kernel: &Kernel, option: &str) -> Result<Option<String>, Failure> {
-    let Some(refused) = kernel.override_refusal(option)? else {
-        return Ok(Some("can be overridden: `--override`".to_owned()));
+fn overridable(answer: Overridable, files: &[File]) -> String {
+    let refused = match answer {
+        Overridable::Yes => return "can be overridden: `--override`".to_owned(),
+        Overridable::Unread => return "can be overridden, where other options have it read".to_owned(),
+        Overridable::No(refused) => refused,
     };
     let reason = refused.message.split_once(": ").map_or("", |(_, reason)| reason);
     let place = refused.span.and_then(|span| {
-        let file = kernel.files().get(span.file as usize)?;
+        let file = files.get(span.file as usize)?;
         Some(format!(" ({}:{})", file.path, span.line))
     });
-    let place = place.unwrap_or_default();
-    Ok(Some(format!("cannot be overridden: {reason}{place}")))
+    format!("cannot be overridden: {reason}{}", place.unwrap_or_default())
 }
 
 fn print_preset(preset: &Preset) {
@@ -304,7 +306,7 @@ fn option_json(kernel: &Kernel, option: &OptionInfo) -> Result<Value, Failure> {
         OptionKind::Flag => json!(["true", "false"]),
     };
     let overridable = match option.kind {
-        OptionKind::Number(_) | OptionKind::Flag => kernel.override_refusal(&option.name)?.is_none(),
+        OptionKind::Number(_) | OptionKind::Flag => !matches!(kernel.overridable(&option.name)?, Overridable::No(_)),
         OptionKind::Choice(_) | OptionKind::List { .. } => false,
     };
     Ok(json!({

@@ -29,7 +29,8 @@ mod fusion;
 mod memory;
 mod spec;
 
-use crate::overridden;
+use crate::overridden::{self, Overridable, reads_override};
+use crate::spec::ShaderSpec;
 use crate::kernel::{Kernel, deep, read_source};
 use std::path::Path;
 use std::sync::Arc;
@@ -130,6 +131,17 @@ impl Chain {
     /// If the options are declared wrongly.
     pub fn options(&self) -> Result<Vec<OptionInfo>, Errors> {
         Kernel::options_of_chain(&self.files, &self.name).options()
+    }
+
+    /// Returns whether an option can be overridden, the other options at their defaults.
+    ///
+    /// # Errors
+    ///
+    /// All errors of the chain without settings.
+    pub fn overridable(&self, option: &str) -> Result<Overridable, Errors> {
+        let compiled = self.compile(&ShaderSpec::new().override_options([option]).into());
+        let reads = |compiled: CompiledChain| compiled.kernels.values().any(|kernel| reads_override(&kernel.graph));
+        Overridable::from_outcome(compiled.map(reads))
     }
 
     /// Reads the passes of the chain, and compiles their kernels. Kernels that read pictures at single places can compute them in

@@ -4,7 +4,7 @@ use straightline_codegen::diagnostic::{Code, Errors};
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_codegen::ir::Op;
 use straightline_codegen::ir::print as print_graph;
-use straightline_codegen::{EmitOptions, Form, Kernel, OptionValue, Settings, ShaderSpec, Stage};
+use straightline_codegen::{EmitOptions, Form, Kernel, OptionValue, Overridable, Settings, ShaderSpec, Stage};
 use straightline_manifest::{Manifest, OverrideType};
 
 const TEXT: &str = "
@@ -65,11 +65,18 @@ fn every_language_declares_them() {
         assert!(wgsl.contains(declared), "{declared}:\n{wgsl}");
     }
     let vulkan = text(&emitted, Target::Glsl450);
-    assert!(vulkan.contains("layout(constant_id = 1) const float tau = 500.0;\n"), "{vulkan}");
-    assert!(vulkan.contains("layout(constant_id = 0) const int radius = 2; // 1 to 4\n"), "{vulkan}");
+    assert!(
+        vulkan.contains("layout(constant_id = 1) const float tau = 500.0;\n"),
+        "{vulkan}"
+    );
+    assert!(
+        vulkan.contains("layout(constant_id = 0) const int radius = 2; // 1 to 4\n"),
+        "{vulkan}"
+    );
     for target in Target::OPENGL {
         let glsl = text(&emitted, target);
-        let macros = "#ifndef OVERRIDE_TAU\n#define OVERRIDE_TAU 500.0\n#endif\nconst float tau = float(OVERRIDE_TAU);\n";
+        let macros =
+            "#ifndef OVERRIDE_TAU\n#define OVERRIDE_TAU 500.0\n#endif\nconst float tau = float(OVERRIDE_TAU);\n";
         assert!(glsl.contains(macros), "{target}:\n{glsl}");
     }
     let hlsl = text(&emitted, Target::Hlsl);
@@ -84,7 +91,10 @@ fn functions_have_no_numbers_for_them() {
     assert!(wgsl.contains("\noverride tau: f32 = 500.0;\n"), "{wgsl}");
     for target in [Target::Glsl450, Target::Essl300, Target::Hlsl] {
         let text = text(&emitted, target);
-        assert!(text.contains("#define OVERRIDE_TAU 500.0\n") && !text.contains("constant_id"), "{target}:\n{text}");
+        assert!(
+            text.contains("#define OVERRIDE_TAU 500.0\n") && !text.contains("constant_id"),
+            "{target}:\n{text}"
+        );
     }
 }
 
@@ -94,7 +104,10 @@ fn the_manifest_lists_them() {
     let manifest = emit(&set).unwrap_or_else(|e| panic!("{e}")).manifest;
     let read = Manifest::from_json(&manifest.to_json()).expect("a manifest");
     assert_eq!(read, manifest);
-    let found = manifest.overrides.iter().map(|of| (of.name.as_str(), of.id, of.ty, of.default, of.range));
+    let found = manifest
+        .overrides
+        .iter()
+        .map(|of| (of.name.as_str(), of.id, of.ty, of.default, of.range));
     let wanted = [
         ("radius", 0, OverrideType::I32, 3.0, Some([1.0, 4.0])),
         ("tau", 1, OverrideType::F32, 500.0, None),
@@ -117,10 +130,16 @@ fn all_spellings_are_the_same() {
     let knob = compile(&Settings::new().set("tau", 300).override_options(["tau"]));
     for spelling in ["override(300)", "override(300.0)"] {
         let set = compile(&Settings::new().set("tau", spelling));
-        assert_eq!((print_graph(&set.graph), &set.options), (print_graph(&knob.graph), &knob.options));
+        assert_eq!(
+            (print_graph(&set.graph), &set.options),
+            (print_graph(&knob.graph), &knob.options)
+        );
     }
     let declared = compile(&Settings::new().override_options(["tau"]));
-    assert_eq!(declared.options, compile(&Settings::new().set("tau", "override")).options);
+    assert_eq!(
+        declared.options,
+        compile(&Settings::new().set("tau", "override")).options
+    );
     let value = OptionValue::Override(Box::new(OptionValue::Number(500.0)));
     assert_eq!(declared.options.get("tau"), Some(&value));
     assert_eq!(declared.changed, ["tau"]);
@@ -130,7 +149,10 @@ fn all_spellings_are_the_same() {
 #[test]
 fn defaults_decide_nothing() {
     let body = |tau: &str, mirrored: &str| {
-        let set = Settings::new().set("tau", tau).set("mirrored", mirrored).override_options(ALL);
+        let set = Settings::new()
+            .set("tau", tau)
+            .set("mirrored", mirrored)
+            .override_options(ALL);
         let compiled = kernel().compile(&set).unwrap_or_else(|e| panic!("{e}"));
         let text = print_graph(&compiled.graph);
         let lines = text.lines().filter(|line| !line.starts_with("override "));
@@ -141,9 +163,20 @@ fn defaults_decide_nothing() {
         assert_eq!(body(tau, mirrored), usual, "{tau} {mirrored}");
     }
     let compiled = kernel().compile(&spec().settings).unwrap_or_else(|e| panic!("{e}"));
-    let loops: Vec<_> = compiled.loops.iter().map(|report| report.reason.clone().unwrap_or_default()).collect();
-    assert!(loops.iter().any(|reason| reason.contains("the override `radius`")), "{loops:?}");
-    let overrides = compiled.graph.nodes.iter().filter(|node| matches!(node.op, Op::Override(_)));
+    let loops: Vec<_> = compiled
+        .loops
+        .iter()
+        .map(|report| report.reason.clone().unwrap_or_default())
+        .collect();
+    assert!(
+        loops.iter().any(|reason| reason.contains("the override `radius`")),
+        "{loops:?}"
+    );
+    let overrides = compiled
+        .graph
+        .nodes
+        .iter()
+        .filter(|node| matches!(node.op, Op::Override(_)));
     assert_eq!(overrides.count(), 4);
 }
 
@@ -166,7 +199,10 @@ pub fn k(cfg: &Cfg, color: &Frame<Vec4>, OVERRIDE_TAU: f32, pixel: IVec2) -> Vec
 }";
     let kernel = Kernel::from_text("k.rs", text, "k");
     let spec = ShaderSpec::new().set("tau", "override").set("Tau", "override");
-    let (_, emitted) = spec.targets([Target::Hlsl]).emit(&kernel).unwrap_or_else(|e| panic!("{e}"));
+    let (_, emitted) = spec
+        .targets([Target::Hlsl])
+        .emit(&kernel)
+        .unwrap_or_else(|e| panic!("{e}"));
     let hlsl = std::str::from_utf8(&emitted.files[&Target::Hlsl]).expect("a text");
     let defines: Vec<&str> = emitted.manifest.overrides.iter().map(|of| of.define.as_str()).collect();
     assert_eq!(defines.len(), 2);
@@ -180,22 +216,34 @@ pub fn k(cfg: &Cfg, color: &Frame<Vec4>, OVERRIDE_TAU: f32, pixel: IVec2) -> Vec
 
 #[test]
 fn options_tell_what_depends_on_them() {
-    let text = TEXT.replace("let mut sum = Vec4::ZERO;", "let mut sum = Vec4::ZERO; let _taps = [0.0; cfg.radius as usize];");
+    let text = TEXT.replace(
+        "let mut sum = Vec4::ZERO;",
+        "let mut sum = Vec4::ZERO; let _taps = [0.0; cfg.radius as usize];",
+    );
     let kernel = Kernel::from_text("k.rs", &text, "k");
-    let refused = kernel.override_refusal("radius").expect("a kernel").expect("a length depends on it");
+    let Ok(Overridable::No(refused)) = kernel.overridable("radius") else {
+        panic!("a length depends on it");
+    };
     assert_eq!(refused.code(), Some(Code::CannotOverride));
     assert_eq!(refused.span.map(|span| span.line), Some(16));
-    assert_eq!(kernel.override_refusal("tau").expect("a kernel"), None);
+    assert_eq!(kernel.overridable("tau").expect("a kernel"), Overridable::Yes);
+    let sraa = Kernel::builtin("sraa").expect("built in");
+    assert_eq!(sraa.overridable("latin").expect("a kernel"), Overridable::Unread);
 }
 
 #[test]
 fn names_that_mean_others_are_refused() {
-    let refused = ShaderSpec::new().override_options(["radus"]).compile(&kernel()).expect_err("no such option");
+    let refused = ShaderSpec::new()
+        .override_options(["radus"])
+        .compile(&kernel())
+        .expect_err("no such option");
     assert_eq!(refused.first_code(), Some(Code::UnknownOption));
     assert!(refused.to_string().contains("did you mean `radius`?"), "{refused}");
     let refused = emit(&spec().target(Target::Msl)).expect_err("msl has none");
     assert!(refused.to_string().contains("`radius`"), "{refused}");
     let unread = EmitOptions::new().targets([Target::Msl]);
-    let constant = kernel().compile(&Settings::new()).and_then(|compiled| compiled.emit(&unread));
+    let constant = kernel()
+        .compile(&Settings::new())
+        .and_then(|compiled| compiled.emit(&unread));
     constant.unwrap_or_else(|e| panic!("{e}"));
 }

@@ -58,14 +58,25 @@ fn values_change_the_picture_without_another_text() {
             gpu.download(&target)
         };
         let expect = |gain: f32, steps: f32, sign: f32| -> Vec<[f32; 4]> {
-            ramp(SIZE, 1).iter().map(|p| p.map(|v| (v * gain + steps) * sign)).collect()
+            ramp(SIZE, 1)
+                .iter()
+                .map(|p| p.map(|v| (v * gain + steps) * sign))
+                .collect()
         };
         let options = PassOptions::default;
         assert_eq!(run(&options()), expect(2.0, -3.0, 1.0), "{stage:?}, defaults");
-        assert_eq!(run(&options().override_option("gain", 0.5)), expect(0.5, -3.0, 1.0), "{stage:?}");
+        assert_eq!(
+            run(&options().override_option("gain", 0.5)),
+            expect(0.5, -3.0, 1.0),
+            "{stage:?}"
+        );
         let all = options().override_option("steps", 1).override_option("negative", true);
         // The last value of a name counts.
-        assert_eq!(run(&all.override_option("steps", 8)), expect(2.0, 8.0, -1.0), "{stage:?}");
+        assert_eq!(
+            run(&all.override_option("steps", 8)),
+            expect(2.0, 8.0, -1.0),
+            "{stage:?}"
+        );
     }
 }
 
@@ -78,11 +89,22 @@ fn values_that_an_override_cannot_have() {
         Pass::with_options(&gpu.device, &manifest, &wgsl, &options).expect_err("a refusal")
     };
     let error = refuse("gane", 1.0.into());
-    assert!(matches!(&error, Error::UnknownOverride { name, .. } if name == "gane"), "{error}");
-    assert!(error.to_string().contains("it has `gain`, `steps` and `negative`"), "{error}");
+    assert!(
+        matches!(&error, Error::UnknownOverride { name, .. } if name == "gane"),
+        "{error}"
+    );
+    assert!(
+        error.to_string().contains("it has `gain`, `steps` and `negative`"),
+        "{error}"
+    );
     let error = refuse("gain", 1.into());
     assert!(matches!(&error, Error::OverrideType { .. }), "{error}");
-    assert!(error.to_string().contains("`gain` of `overridden` is of type f32, but was given a value of type i32"), "{error}");
+    assert!(
+        error
+            .to_string()
+            .contains("`gain` of `overridden` is of type f32, but was given a value of type i32"),
+        "{error}"
+    );
     for value in [f32::NAN, f32::INFINITY] {
         let error = refuse("gain", value.into());
         assert!(matches!(&error, Error::OverrideValue { .. }), "{error}");
@@ -90,7 +112,10 @@ fn values_that_an_override_cannot_have() {
     }
     for steps in [-5, 9] {
         let error = refuse("steps", steps.into()).to_string();
-        assert!(error.contains(&format!("`steps` of `overridden` cannot be {steps}: it takes -4 to 8")), "{error}");
+        assert!(
+            error.contains(&format!("`steps` of `overridden` cannot be {steps}: it takes -4 to 8")),
+            "{error}"
+        );
     }
 }
 
@@ -105,9 +130,18 @@ fn texts_with_other_overrides_than_the_manifest() {
         assert!(error.contains(says), "{error}");
     };
     refuse(&|all| all[0].id = 7, "no override @id(7), where `gain` should be");
-    refuse(&|all| all[0].default = 3.0, "default of the override `gain` is not the f32 3");
-    refuse(&|all| all[1].ty = OverrideType::U32, "the default -3 of `steps` is no u32");
-    refuse(&|all| all[1].default = 9.0, "the default 9 of `steps` is out of its range");
+    refuse(
+        &|all| all[0].default = 3.0,
+        "default of the override `gain` is not the f32 3",
+    );
+    refuse(
+        &|all| all[1].ty = OverrideType::U32,
+        "the default -3 of `steps` is no u32",
+    );
+    refuse(
+        &|all| all[1].default = 9.0,
+        "the default 9 of `steps` is out of its range",
+    );
     refuse(&|all| all[1].name = "gain".to_owned(), "`gain` is listed twice");
     refuse(&|all| all[1].id = 4, "number 4 is listed twice");
     refuse(&|all| _ = all.pop(), "it has 3 overrides, and the manifest lists 2");

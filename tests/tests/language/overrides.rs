@@ -2,13 +2,17 @@
 
 use glam::uvec2;
 use straightline_bench::execute::{interpret_kernel, test_inputs};
-use straightline_codegen::{Compiled, Kernel, OptionInfo, OptionKind, OptionValue, Settings};
+use straightline_codegen::{Compiled, Kernel, OptionInfo, OptionKind, OptionValue, Overridable, Settings};
 use straightline_kernels::CATALOGUE;
 
 /// Three values of an option, the default among them.
 fn values(option: &OptionInfo) -> Vec<OptionValue> {
     let OptionKind::Number(of) = &option.kind else {
-        return vec![OptionValue::Flag(false), OptionValue::Flag(true), option.default.clone()];
+        return vec![
+            OptionValue::Flag(false),
+            OptionValue::Flag(true),
+            option.default.clone(),
+        ];
     };
     let default = option.default.number().expect("a number");
     // Ranges may be long, and loops run as often as an option says.
@@ -25,7 +29,8 @@ fn values(option: &OptionInfo) -> Vec<OptionValue> {
 fn picture(compiled: &Compiled, set: &[(String, Vec<f64>)]) -> Vec<[u32; 4]> {
     let mut inputs = test_inputs(&compiled.graph, uvec2(7, 5));
     inputs.uniforms.extend(set.iter().cloned());
-    let result = interpret_kernel::<f32>(compiled, &inputs, false).unwrap_or_else(|e| panic!("{}: {e}", compiled.kernel));
+    let result =
+        interpret_kernel::<f32>(compiled, &inputs, false).unwrap_or_else(|e| panic!("{}: {e}", compiled.kernel));
     result.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
 }
 
@@ -40,13 +45,16 @@ fn overridden_kernels_have_the_bits_of_constants() {
             if !matches!(option.kind, OptionKind::Number(_) | OptionKind::Flag) {
                 continue;
             }
-            if kernel.override_refusal(&option.name).unwrap_or_else(|e| panic!("{e}")).is_some() {
+            if kernel.overridable(&option.name).unwrap_or_else(|e| panic!("{e}")) != Overridable::Yes {
                 continue;
             }
             let overridden = kernel.compile(&Settings::new().override_options([&option.name]));
             let overridden = overridden.unwrap_or_else(|e| panic!("{e}"));
             for value in values(option) {
-                let number = value.number().or(value.flag().map(|on| f64::from(u8::from(on)))).expect("a value");
+                let number = value
+                    .number()
+                    .or(value.flag().map(|on| f64::from(u8::from(on))))
+                    .expect("a value");
                 let constant = kernel.compile(&Settings::new().set(&option.name, &value));
                 let Ok(constant) = constant else { continue };
                 let set = vec![(option.name.replace('-', "_"), vec![number])];
@@ -58,5 +66,8 @@ fn overridden_kernels_have_the_bits_of_constants() {
         kernels += usize::from(compared > before);
     }
     println!("{compared} values, of {kernels} kernels");
-    assert!(compared >= 100 && kernels >= 5, "{compared} values of {kernels} kernels");
+    assert!(
+        compared >= 100 && kernels >= 5,
+        "{compared} values of {kernels} kernels"
+    );
 }

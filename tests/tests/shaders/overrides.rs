@@ -39,7 +39,12 @@ const LANGUAGES: [Target; 4] = [Target::Wgsl, Target::Spirv, Target::Glsl450, Ta
 /// Values of the options of `TEXT`.
 const SETS: [[(&str, f64); 4]; 3] = [
     [("radius", 2.0), ("tau", 500.0), ("mirrored", 0.0), ("seed", 7.0)],
-    [("radius", 4.0), ("tau", -0.25), ("mirrored", 1.0), ("seed", 4_294_967_295.0)],
+    [
+        ("radius", 4.0),
+        ("tau", -0.25),
+        ("mirrored", 1.0),
+        ("seed", 4_294_967_295.0),
+    ],
     [("radius", 1.0), ("tau", 3.0e30), ("mirrored", 0.0), ("seed", 0.0)],
 ];
 
@@ -57,11 +62,17 @@ fn constant(set: &[(&str, f64)]) -> Compiled {
 }
 
 fn with_values(inputs: &Inputs, set: &[(&str, f64)]) -> Inputs {
-    set.iter().fold(inputs.clone(), |inputs, (name, value)| inputs.with_uniform(name, &[*value]))
+    set.iter().fold(inputs.clone(), |inputs, (name, value)| {
+        inputs.with_uniform(name, &[*value])
+    })
 }
 
 fn bits(picture: &Frame<Vec4>) -> Vec<[u32; 4]> {
-    picture.texels().iter().map(|texel| texel.to_array().map(f32::to_bits)).collect()
+    picture
+        .texels()
+        .iter()
+        .map(|texel| texel.to_array().map(f32::to_bits))
+        .collect()
 }
 
 /// The text in HLSL behind definitions of the macros, as a host compiles it.
@@ -102,9 +113,15 @@ fn one_text_gives_every_picture() {
                 let found = match target {
                     Target::Wgsl => {
                         let options = override_options(&emitted.manifest, &given);
-                        let pass = bench.create_pass(&emitted, &options).unwrap_or_else(|e| panic!("{set:?}: {e}"));
-                        let uploaded = bench.upload(&emitted.manifest, &given).unwrap_or_else(|e| panic!("{e}"));
-                        bench.written_by(&pass, &uploaded, given.size).map_err(|e| e.to_string())
+                        let pass = bench
+                            .create_pass(&emitted, &options)
+                            .unwrap_or_else(|e| panic!("{set:?}: {e}"));
+                        let uploaded = bench
+                            .upload(&emitted.manifest, &given)
+                            .unwrap_or_else(|e| panic!("{e}"));
+                        bench
+                            .written_by(&pass, &uploaded, given.size)
+                            .map_err(|e| e.to_string())
                     }
                     Target::Hlsl => {
                         let (manifest, text) = (&emitted.manifest, defined(&emitted, set));
@@ -148,8 +165,12 @@ fn sraa_by_overrides_is_that_by_constants() {
             let (found, expected) = (run(&emitted, &given), run(&constant, &inputs));
             assert_eq!(bits(&found), bits(&expected), "{tau} {target}");
         }
-        let found = bench.run_targets(&overridden, Stage::Compute, &given).unwrap_or_else(|e| panic!("{e}"));
-        let expected = bench.run_targets(&of_constant, Stage::Compute, &inputs).unwrap_or_else(|e| panic!("{e}"));
+        let found = bench
+            .run_targets(&overridden, Stage::Compute, &given)
+            .unwrap_or_else(|e| panic!("{e}"));
+        let expected = bench
+            .run_targets(&of_constant, Stage::Compute, &inputs)
+            .unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(bits(&found[0].frame()), bits(&expected[0].frame()), "{tau}");
     }
 }
@@ -165,6 +186,9 @@ fn words_have_a_specialization_constant_for_each() {
     let constants: Vec<u32> = compilers::instructions(&words, 50).iter().map(|i| i[3]).collect();
     assert_eq!(constants, [2, 500.0_f32.to_bits(), 7]);
     assert_eq!(compilers::instructions(&words, 49).len(), 1);
-    let ids = compilers::instructions(&words, 71).into_iter().filter(|i| i[2] == 1).map(|i| i[3]);
+    let ids = compilers::instructions(&words, 71)
+        .into_iter()
+        .filter(|i| i[2] == 1)
+        .map(|i| i[3]);
     assert_eq!(ids.collect::<Vec<_>>(), [0, 1, 2, 3]);
 }
