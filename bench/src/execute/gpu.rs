@@ -7,7 +7,9 @@ use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::Emitted;
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{Binding, BindingKind, BufferType, Element, Manifest, OverrideType, SamplerType, UniformField};
+use straightline_manifest::{
+    Binding, BindingKind, BufferType, Element, Manifest, OverrideType, SamplerType, UniformField,
+};
 use straightline_runtime::{
     BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
     UniformValue,

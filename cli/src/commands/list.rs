@@ -136,7 +136,9 @@ fn print_meanings(description: &Description) {
 fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
     if let (Some(chain), false) = (Chain::from_argument(name)?, as_json) {
         outln!("{}: a chain of passes", chain.name());
-        return print_options(&chain.options()?, &|name| Ok(overridable(chain.overridable(name)?, chain.files())));
+        return print_options(&chain.options()?, &|name| {
+            Ok(overridable(chain.overridable(name)?, chain.files()))
+        });
     }
     let kernel = Kernel::from_argument(name)?;
     if as_json {
@@ -150,7 +152,9 @@ fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
         outln!("\nPresets, for `--set preset=NAME`; options set beside one override its own:");
         kernel.presets().iter().for_each(print_preset);
     }
-    print_options(&options, &|name| Ok(overridable(kernel.overridable(name)?, kernel.files())))
+    print_options(&options, &|name| {
+        Ok(overridable(kernel.overridable(name)?, kernel.files()))
+    })
 }
 
 /// Text on an option that says whether it can be overridden.

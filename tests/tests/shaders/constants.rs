@@ -102,7 +102,13 @@ fn a_chain_of_constants_is_the_chain_that_is_read() {
 fn generated_overrides_set_the_picture() {
     use generated::faded::{Inputs, Overrides, Pass};
     let defaults = Overrides::default();
-    assert_eq!(defaults, Overrides { strength: 0.75, inverted: false });
+    assert_eq!(
+        defaults,
+        Overrides {
+            strength: 0.75,
+            inverted: false
+        }
+    );
     let bench = bench();
     let texels = (0..SIZE.x * SIZE.y).map(|k| Vec4::splat((k % 5) as f32 * 0.25));
     let color = Frame::new(SIZE, texels.collect());
@@ -118,13 +124,28 @@ fn generated_overrides_set_the_picture() {
     };
     for (overrides, kept) in [
         (defaults, 0.75),
-        (Overrides { strength: 0.25, ..defaults }, 0.25),
-        (Overrides { strength: 1.0, inverted: true }, 1.0),
+        (
+            Overrides {
+                strength: 0.25,
+                ..defaults
+            },
+            0.25,
+        ),
+        (
+            Overrides {
+                strength: 1.0,
+                inverted: true,
+            },
+            1.0,
+        ),
     ] {
         let pass = Pass::with_options(bench.device(), &overrides.apply(PassOptions::default()));
         let pass = pass.unwrap_or_else(|e| panic!("{e}"));
         let target = bench.create_target(SIZE, TextureFormat::Rgba32Float);
-        let bound = pass.bind(&Inputs { color: view }, &target.create_view(&wgpu::TextureViewDescriptor::default()));
+        let bound = pass.bind(
+            &Inputs { color: view },
+            &target.create_view(&wgpu::TextureViewDescriptor::default()),
+        );
         let mut encoder = bench
             .device()
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -139,7 +160,12 @@ fn generated_overrides_set_the_picture() {
     }
     let options = PassOptions::default().override_option("strength", 1.5);
     let refused = Pass::with_options(bench.device(), &options).expect_err("out of range");
-    assert!(refused.to_string().contains("`strength` of `faded` cannot be 1.5: it takes 0 to 1"), "{refused}");
+    assert!(
+        refused
+            .to_string()
+            .contains("`strength` of `faded` cannot be 1.5: it takes 0 to 1"),
+        "{refused}"
+    );
 }
 
 #[test]

@@ -112,7 +112,11 @@ pub fn read_given(given: &GivenArgs, wanted: &Wanted) -> Result<Inputs, Failure>
             return Err(Failure::Usage(format!("the uniform `{name}` is given twice")));
         }
         let value = values::parse_uniform(name, uniform.ty, text)?;
-        let range = wanted.overrides.iter().find(|of| of.name == *name).and_then(|of| of.range);
+        let range = wanted
+            .overrides
+            .iter()
+            .find(|of| of.name == *name)
+            .and_then(|of| of.range);
         if let Some([low, high]) = range.filter(|[low, high]| !(*low..=*high).contains(&value[0])) {
             return Err(Failure::Usage(format!("`{name}` is {low} to {high}, not {}", value[0])));
         }

@@ -231,7 +231,9 @@ fn equal_pairs(
     found: &Given,
     world: &World,
 ) -> Result<Vec<(Place, Texel, Texel)>, Difference> {
-    let pairs = native.pairs(found, world).map_err(|why| Difference::Broken(form, why))?;
+    let pairs = native
+        .pairs(found, world)
+        .map_err(|why| Difference::Broken(form, why))?;
     match pairs.iter().find(|(_, expected, found)| !same(*expected, *found)) {
         Some((place, expected, found)) => Err(Difference::Value {
             form,
