@@ -52,7 +52,10 @@ pub fn blame_overrides(
     let with_constants = |kept: Option<&str>| {
         let spelled = texts.iter().map(|(name, text)| {
             let constant = overrides.iter().find(|(known, _)| *known == name && kept != Some(name));
-            (name.clone(), constant.map_or(text.clone(), |(_, default)| default.to_string()))
+            (
+                name.clone(),
+                constant.map_or(text.clone(), |(_, default)| default.to_string()),
+            )
         });
         spelled.collect()
     };
@@ -61,7 +64,11 @@ pub fn blame_overrides(
     }
     let mut found = Vec::new();
     for (name, _) in &overrides {
-        for error in compile(with_constants(Some(name))).err().into_iter().flat_map(|due| due.diagnostics) {
+        for error in compile(with_constants(Some(name)))
+            .err()
+            .into_iter()
+            .flat_map(|due| due.diagnostics)
+        {
             let message = format!("the option `{name}` cannot be overridden: {}", error.message);
             let help = format!("leave `{name}` out of `override`, and emit a shader for each of its values");
             found.push(error.restated(Code::CannotOverride, message).help(help));

@@ -4,7 +4,11 @@ use std::fmt;
 
 /// Type of an override.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+#[cfg_attr(
+    feature = "json",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum OverrideType {
     /// A float of 32 bits.
     F32,
@@ -50,8 +54,8 @@ impl fmt::Display for OverrideType {
     }
 }
 
-/// An option that a host may set when it creates the pipeline: a pipeline-overridable constant of WGSL, a specialization
-/// constant of SPIR-V, a macro of other languages.
+/// An option that a host may set when it creates the pipeline: a pipeline-overridable constant of WGSL, a
+/// specialization constant of SPIR-V, a macro of other languages.
 #[cfg(feature = "json")]
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]

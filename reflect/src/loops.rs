@@ -1,16 +1,16 @@
 //! Proof that every loop of a shader ends, from its text alone.
 //!
-//! wgpu puts a bound on the iterations of every loop, because a compiler may take one that never ends for unreachable code and
-//! draw conclusions. Where it is shown here that all loops end, that bound can go.
+//! wgpu puts a bound on the iterations of every loop, because a compiler may take one that never ends for unreachable
+//! code and draw conclusions. Where it is shown here that all loops end, that bound can go.
 
 use naga::{
     AddressSpace, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, Literal, LocalVariable, Module,
     Scalar, Statement, TypeInner,
 };
 
-/// Checks that each loop of `module` counts up by one, from an `i32` that nothing else in it writes, to a limit that does not
-/// change in it. Such a loop ends: the counter meets every limit that an `i32` can hold before it could wrap. Emitted
-/// shaders have such loops, but for a `while` whose trip count is a runtime value, which is refused here.
+/// Checks that each loop of `module` counts up by one, from an `i32` that nothing else in it writes, to a limit that
+/// does not change in it. Such a loop ends: the counter meets every limit that an `i32` can hold before it could wrap.
+/// Emitted shaders have such loops, but for a `while` whose trip count is a runtime value, which is refused here.
 ///
 /// # Errors
 ///
@@ -183,8 +183,8 @@ fn is_invariant(
     }
 }
 
-/// Returns whether a pointer leads to a fixed place in a uniform buffer, which nothing in a shader writes, or to a private
-/// variable that no statement writes.
+/// Returns whether a pointer leads to a fixed place in a uniform buffer, which nothing in a shader writes, or to a
+/// private variable that no statement writes.
 fn is_constant_memory(module: &Module, function: &Function, pointer: Handle<Expression>) -> bool {
     match function.expressions[pointer] {
         Expression::GlobalVariable(global) => match module.global_variables[global].space {
@@ -207,7 +207,10 @@ fn is_written(module: &Module, global: Handle<GlobalVariable>) -> bool {
                 Statement::Call { arguments, .. } => arguments.iter().any(is_it),
                 _ => false,
             };
-            writes || blocks_of(statement).into_iter().any(|inner| in_block(function, inner, global))
+            writes
+                || blocks_of(statement)
+                    .into_iter()
+                    .any(|inner| in_block(function, inner, global))
         })
     }
     let entries = module.entry_points.iter().map(|entry| &entry.function);

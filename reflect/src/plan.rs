@@ -33,7 +33,10 @@ pub fn check_plan(plan: &Plan, spelling: &Spelling<'_>, module: &Module) -> Resu
 fn check_overrides(plan: &Plan, module: &Module) -> Result<(), String> {
     for of in plan.overrides.iter() {
         let (name, id) = (&of.name, of.id);
-        let numbered = module.overrides.iter().find(|(_, found)| found.id.map(u32::from) == Some(id));
+        let numbered = module
+            .overrides
+            .iter()
+            .find(|(_, found)| found.id.map(u32::from) == Some(id));
         let Some((_, found)) = numbered else {
             return Err(format!("it has no override @id({id}), where `{name}` should be"));
         };

@@ -12,16 +12,17 @@ pub struct PassOptions {
     pub target_format: Option<TextureFormat>,
     /// Formats of single targets, by name, of a kernel that writes several.
     pub formats: Vec<(String, TextureFormat)>,
-    /// `true` if loops run without wgpu's bound on their iterations, whose counter costs time. Only for shaders whose text
-    /// shows that every loop ends, as emitted shaders do; all others are rejected.
+    /// `true` if loops run without wgpu's bound on their iterations, whose counter costs time. Only for shaders whose
+    /// text shows that every loop ends, as emitted shaders do; all others are rejected.
     pub unbounded_loops: bool,
-    /// Values of options that the shader takes when the pipeline is created, by name; the others have the manifest's defaults.
+    /// Values of options that the shader takes when the pipeline is created, by name; the others have the manifest's
+    /// defaults.
     pub overrides: Vec<(String, OverrideValue)>,
 }
 
 impl PassOptions {
-    /// Sets an option of the kernel that the shader was emitted with as an override. Another value needs another pass, but no
-    /// other shader.
+    /// Sets an option of the kernel that the shader was emitted with as an override. Another value needs another pass,
+    /// but no other shader.
     ///
     /// ```
     /// # use straightline_runtime::PassOptions;

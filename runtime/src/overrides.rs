@@ -1,11 +1,12 @@
 //! Options that are set when the pipeline is created.
 
+use crate::PassOptions;
 use crate::error::Error;
 use crate::plan::{OverridePlan, OverrideType, Plan};
-use crate::PassOptions;
 use std::fmt;
 
-/// A value for an option that the shader takes when the pipeline is created, made by `From` of `f32`, `i32`, `u32` and `bool`.
+/// A value for an option that the shader takes when the pipeline is created, made by `From` of `f32`, `i32`, `u32` and
+/// `bool`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OverrideValue {
     ty: OverrideType,
@@ -35,7 +36,8 @@ impl fmt::Display for OverrideValue {
     }
 }
 
-/// Overrides that the caller sets, by their numbers, each with a value that it may have. The last value of a name counts.
+/// Overrides that the caller sets, by their numbers, each with a value that it may have. The last value of a name
+/// counts.
 pub(crate) fn chosen_overrides<'p>(
     plan: &'p Plan,
     options: &PassOptions,

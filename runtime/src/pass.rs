@@ -4,8 +4,8 @@ use crate::guard::LossProbe;
 use crate::inputs::Abilities;
 use crate::layout::Layout;
 use crate::module::Source;
-use crate::pipeline::{Pipeline, check_formats};
 use crate::overrides::{chosen_overrides, pipeline_constants};
+use crate::pipeline::{Pipeline, check_formats};
 use crate::plan::Plan;
 use crate::{Error, PassOptions, Shader};
 use std::sync::Arc;
@@ -33,10 +33,11 @@ impl Pass {
     ///
     /// # Errors
     ///
-    /// [`Error::UnknownOverride`], [`Error::OverrideType`] and [`Error::OverrideValue`] for an override that the shader does
-    /// not have or that cannot have the value; [`Error::Limit`], [`Error::Shader`], [`Error::Pipeline`] and [`Error::OutOfMemory`] if the device cannot run the
-    /// shader; [`Error::TargetFormat`] if the shader cannot write the format asked for; [`Error::UnboundedLoop`] if loops are to
-    /// go without a bound and one may not end; [`Error::DeviceLost`].
+    /// [`Error::UnknownOverride`], [`Error::OverrideType`] and [`Error::OverrideValue`] for an override that the shader
+    /// does not have or that cannot have the value; [`Error::Limit`], [`Error::Shader`], [`Error::Pipeline`] and
+    /// [`Error::OutOfMemory`] if the device cannot run the shader; [`Error::TargetFormat`] if the shader cannot write the
+    /// format asked for; [`Error::UnboundedLoop`] if loops are to go without a bound and one may not end;
+    /// [`Error::DeviceLost`].
     pub fn from_shader(device: &Device, shader: &Shader<'_>, options: &PassOptions) -> Result<Self, Error> {
         check_varyings(&shader.plan)?;
         let source = Source::from_shader(shader, options);

@@ -23,7 +23,8 @@ pub(crate) enum Pipeline {
 }
 
 impl Pipeline {
-    /// Compiles a shader for targets of `formats` with overrides at `constants`, and tells how long making the pipeline took once the shader was checked.
+    /// Compiles a shader for targets of `formats` with overrides at `constants`, and tells how long making the pipeline
+    /// took once the shader was checked.
     pub(crate) fn new(
         device: &Device,
         plan: &Plan,

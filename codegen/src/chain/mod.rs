@@ -29,9 +29,9 @@ mod fusion;
 mod memory;
 mod spec;
 
+use crate::kernel::{Kernel, deep, read_source};
 use crate::overridden::{self, Overridable, reads_override};
 use crate::spec::ShaderSpec;
-use crate::kernel::{Kernel, deep, read_source};
 use std::path::Path;
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Errors, File};

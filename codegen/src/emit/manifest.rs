@@ -7,8 +7,8 @@ use super::resources::{BoundOverride, BoundTexture, Resources};
 use crate::compiled::Compiled;
 use straightline_evaluator::ir::{Element, Field, Scalar, Texture, TextureKind};
 use straightline_manifest::{
-    Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Override,
-    OverrideType, REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
+    Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Override, OverrideType,
+    REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
 };
 
 impl Resources {
@@ -121,7 +121,11 @@ impl Resources {
             features: self.device_features(),
             varyings: self.manifest_varyings().collect(),
             bindings,
-            overrides: self.overrides.iter().map(|(_, bound)| manifest_override(bound)).collect(),
+            overrides: self
+                .overrides
+                .iter()
+                .map(|(_, bound)| manifest_override(bound))
+                .collect(),
             language_bindings: self.language_bindings()?,
             outputs: outputs.collect(),
             options: compiled.options.spelled(),

@@ -607,7 +607,10 @@ fn size_field(compiled: &Compiled) -> Result<Uniform, Refusal> {
 
 /// Returns the names of all inputs and outputs of a kernel.
 fn input_names(graph: &Graph) -> impl Iterator<Item = &String> {
-    let wholes = graph.uniforms.iter().filter_map(|uniform| Some(&uniform.part.as_ref()?.of));
+    let wholes = graph
+        .uniforms
+        .iter()
+        .filter_map(|uniform| Some(&uniform.part.as_ref()?.of));
     let textures = graph.textures.iter().map(|texture| &texture.name);
     textures
         .chain(graph.buffers.iter().map(|buffer| &buffer.name))

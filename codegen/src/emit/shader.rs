@@ -19,8 +19,8 @@ pub fn kernel_tree(compiled: &Compiled, precision: Precision) -> ast::Module<'_>
     module
 }
 
-/// Returns the tree of a shader with comments, before a language's own rules, and its counts. A kernel in half precision is
-/// counted in full precision.
+/// Returns the tree of a shader with comments, before a language's own rules, and its counts. A kernel in half
+/// precision is counted in full precision.
 pub fn shader_tree<'g>(compiled: &'g Compiled, resources: &Resources) -> (ast::Module<'g>, Counts) {
     let mut module = kernel_tree(compiled, resources.options.precision);
     let mut counts = compiled.counts.clone();
@@ -69,7 +69,8 @@ impl Wgsl {
 
 impl Shader<'_, '_> {
     /// Returns the whole shader, parsed and validated by naga; a function with an entry point that only calls it. With
-    /// `marks`, every exact value is marked ([`legalise::legalise_wgsl`]), and overrides are variables with their defaults.
+    /// `marks`, every exact value is marked ([`legalise::legalise_wgsl`]), and overrides are variables with their
+    /// defaults.
     pub fn validated_module(&self, counts: &Counts, marks: bool) -> Result<translate::Module, Refusal> {
         let kernel = &self.compiled.kernel;
         if !self.resources.options.is_function() && !marks {

@@ -251,7 +251,10 @@ fn bindings_compile_with_overrides_of_every_type() {
     let all = Settings::default().override_options(["tau", "dyn-", "Default", "on"]);
     compiles_with(&folder, "bindings.rs", text, &all).unwrap_or_else(|e| panic!("{e}"));
     let written = std::fs::read_to_string(folder.join("bindings.rs")).expect("written");
-    assert!(written.contains("tau: -0.5") && written.contains("range: Some([-1f64, 1000000000f64])"), "{written}");
+    assert!(
+        written.contains("tau: -0.5") && written.contains("range: Some([-1f64, 1000000000f64])"),
+        "{written}"
+    );
     std::fs::remove_dir_all(&folder).expect("removed");
 }
 

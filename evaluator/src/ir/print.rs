@@ -99,7 +99,9 @@ fn print_tables(graph: &Graph) -> String {
         let _ = writeln!(text, "uniform {}: {}{part}{default}", u.name, u.ty);
     }
     for o in &graph.overrides {
-        let range = o.range.map_or(String::new(), |[low, high]| format!(" from {low} to {high}"));
+        let range = o
+            .range
+            .map_or(String::new(), |[low, high]| format!(" from {low} to {high}"));
         let _ = writeln!(text, "override {}: {} {} = {}{range}", o.name, o.ty, o.id, o.default);
     }
     for v in &graph.varyings {

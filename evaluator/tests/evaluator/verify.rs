@@ -2,8 +2,8 @@
 
 use straightline_evaluator::ir::{
     Access, AtomicOp, BinaryOp, Buffer, Builder, Element, Graph, Invocation, Memory, Node, NodeId, Op, OutputTarget,
-    Override, QuadDirection, RegionId, Rules, Sampler, Scalar, SharedArray, Texture, TextureKind, Type, UnaryOp, Uniform,
-    verify::verify_graph,
+    Override, QuadDirection, RegionId, Rules, Sampler, Scalar, SharedArray, Texture, TextureKind, Type, UnaryOp,
+    Uniform, verify::verify_graph,
 };
 
 struct Nothing;

@@ -1,6 +1,9 @@
 //! The plan of a manifest, which must not contradict itself.
 
-use super::{InputKind, InputPlan, OutputPlan, OverridePlan, Plan, StagePlan, Text, TexturePlan, UniformPlan, VaryingPlan, binding};
+use super::{
+    InputKind, InputPlan, OutputPlan, OverridePlan, Plan, StagePlan, Text, TexturePlan, UniformPlan, VaryingPlan,
+    binding,
+};
 use crate::{
     Access, Binding, BindingKind, BufferType, Form, Manifest, Output, REGION_SIZE, Scalar, Stage, ViewDimension,
     region_fields,
@@ -256,7 +259,9 @@ fn plan_overrides(manifest: &Manifest) -> Result<Vec<OverridePlan>, String> {
     }
     let each = all.iter().map(|of| {
         let (name, ty, default) = (&of.name, of.ty, of.default);
-        require(ty.holds(default), || format!("the default {default} of `{name}` is no {ty}"))?;
+        require(ty.holds(default), || {
+            format!("the default {default} of `{name}` is no {ty}")
+        })?;
         let plan = OverridePlan {
             name: name.clone().into(),
             id: of.id,
@@ -264,7 +269,9 @@ fn plan_overrides(manifest: &Manifest) -> Result<Vec<OverridePlan>, String> {
             default,
             range: of.range,
         };
-        require(plan.allows(default), || format!("the default {default} of `{name}` is out of its range"))?;
+        require(plan.allows(default), || {
+            format!("the default {default} of `{name}` is out of its range")
+        })?;
         Ok(plan)
     });
     each.collect()

@@ -105,14 +105,15 @@ impl Chain {
     }
 
     /// A chain of `plan`, whose passes name the `shaders`: each exactly once. `options` apply to the chain's results:
-    /// formats are those of targets that the caller gives, by the names of the results; an override applies to every pass
-    /// that has it.
+    /// formats are those of targets that the caller gives, by the names of the results. An override applies to every
+    /// pass that has it.
     ///
     /// # Errors
     ///
     /// [`Error::Chain`] if the plan contradicts itself or does not fit the shaders, or if a pass cannot be made: the
     /// problem has the name of the pass and its error. [`Error::TargetFormat`] for the format of a result that the
-    /// chain does not have; [`Error::UnknownOverride`] for an override that no pass has; [`Error::DeviceLost`] and [`Error::OutOfMemory`].
+    /// chain does not have; [`Error::UnknownOverride`] for an override that no pass has; [`Error::DeviceLost`] and
+    /// [`Error::OutOfMemory`].
     pub fn from_shaders(
         device: &Device,
         plan: &ChainPlan,

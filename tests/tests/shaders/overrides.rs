@@ -1,5 +1,5 @@
-//! Overridden options on a Vulkan driver: one text gives the picture of each value, in every language that the driver can be
-//! given, bit for bit that of the text with the constant.
+//! Overridden options on a Vulkan driver: one text gives the picture of each value, in every language that the driver
+//! can be given, bit for bit that of the text with the constant.
 
 use glam::{Vec4, uvec2};
 use straightline_bench::execute::{Inputs, interpret_kernel, override_options, test_inputs};

@@ -15,10 +15,18 @@ pub fn quote_overrides(manifest: &Manifest) -> TokenStream {
     let fields: Vec<_> = names.iter().map(|name| rust_identifier(name)).collect();
     let types = all.iter().map(|of| format_ident!("{}", of.ty.to_string()));
     let docs = all.iter().map(|of| {
-        let range = of.range.map_or(String::new(), |[low, high]| format!(", {low} to {high}"));
-        doc_line(&format!("`{}` of the kernel{range}; {} by default.", of.name, default_text(of)))
+        let range = of
+            .range
+            .map_or(String::new(), |[low, high]| format!(", {low} to {high}"));
+        doc_line(&format!(
+            "`{}` of the kernel{range}; {} by default.",
+            of.name,
+            default_text(of)
+        ))
     });
-    let defaults = all.iter().map(|of| default_text(of).parse::<TokenStream>().expect("a literal"));
+    let defaults = all
+        .iter()
+        .map(|of| default_text(of).parse::<TokenStream>().expect("a literal"));
     quote! {
         /// Options that are set when the pipeline is created.
         #[derive(Clone, Copy, Debug, PartialEq)]

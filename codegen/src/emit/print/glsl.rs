@@ -3,8 +3,8 @@
 mod types;
 
 use super::expr::{float_literal, integer_literal, unsigned_literal};
-use super::wgsl::pad_texel;
 use super::overrides::PrintOverrides;
+use super::wgsl::pad_texel;
 use super::{Language, Text, header_comment};
 use crate::emit::Target;
 use crate::emit::ast::{Builtin, Effect, Module, Ty};

@@ -1,7 +1,7 @@
 //! Declarations in Vulkan's GLSL: separate textures and samplers in descriptor sets.
 
-use super::overrides::PrintOverrides;
 use super::glsl::{Glsl, sampler_type, texture_type, variable_declared};
+use super::overrides::PrintOverrides;
 use crate::emit::own_words::{SAMPLER, UNIFORMS};
 use straightline_manifest::REGION;
 

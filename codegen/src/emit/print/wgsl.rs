@@ -389,8 +389,9 @@ impl Language for Wgsl<'_> {
 }
 
 impl Wgsl<'_> {
-    /// Declares the overrides, each with the variable that the kernel reads. An expression of overrides alone is evaluated
-    /// when the pipeline is created, which fails where it overflows or divides by zero; one of variables does not.
+    /// Declares the overrides, each with the variable that the kernel reads. An expression of overrides alone is
+    /// evaluated when the pipeline is created, which fails where it overflows or divides by zero; one of variables does
+    /// not.
     fn override_declarations(&self) -> String {
         let r = self.resources;
         let mut out = self.override_comment();

@@ -1,5 +1,5 @@
-//! Specialization constants. naga writes none, so the translated WGSL holds each override in a private variable with its
-//! default; here a specialization constant takes the place of that initial value.
+//! Specialization constants. naga writes none, so the translated WGSL holds each override in a private variable with
+//! its default; here a specialization constant takes the place of that initial value.
 
 use super::uncontracted::{instruction_head, is_before_types, literal_string};
 use super::{HEADER, opcode_of, split_instructions};
@@ -68,7 +68,10 @@ pub fn add_spec_constants(words: &[u32], constants: &[SpecConstant<'_>]) -> Vec<
             }
             (code::VARIABLE, _) if made.contains_key(&instruction[2]) => {
                 let (own, initial, constant) = &made[&instruction[2]];
-                let ty = all.iter().find(|i| i.len() > 2 && defines_constant(i, *initial)).map_or(0, |i| i[1]);
+                let ty = all
+                    .iter()
+                    .find(|i| i.len() > 2 && defines_constant(i, *initial))
+                    .map_or(0, |i| i[1]);
                 out.extend(match (constant.is_bool, constant.default) {
                     (true, 0) => vec![instruction_head(3, code::SPEC_CONSTANT_FALSE), ty, *own],
                     (true, _) => vec![instruction_head(3, code::SPEC_CONSTANT_TRUE), ty, *own],
@@ -93,5 +96,7 @@ fn literal_words(text: &str) -> Vec<u32> {
     let mut bytes = text.as_bytes().to_vec();
     bytes.resize((text.len() / 4 + 1) * 4, 0);
     let words = bytes.chunks_exact(4);
-    words.map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect()
+    words
+        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+        .collect()
 }

@@ -14,8 +14,8 @@ use crate::policy::Policy;
 use std::sync::Arc;
 use straightline_kernels::{OptionText, OptionValue, OptionValues, kebab};
 
-pub use parse::{override_text, parse_settings};
 pub(super) use parse::unknown_settings;
+pub use parse::{override_text, parse_settings};
 
 /// An option of a kernel.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +47,8 @@ impl OptionInfo {
 pub enum OptionKind {
     /// A choice of several values, each with its meaning.
     Choice(Vec<(String, String)>),
-    /// A number, `uniform` for one that is set at run time, or `override` for one that is set when the pipeline is created.
+    /// A number, `uniform` for one that is set at run time, or `override` for one that is set when the pipeline is
+    /// created.
     Number(Numeric),
     /// Several numbers, separated by commas.
     List {
@@ -171,8 +172,8 @@ impl Evaluator<'_> {
         Ok(Value::structure(ty, values))
     }
 
-    /// Value of an option in the kernel, whose position is `id`. A setting equal to the default shares its node, so that
-    /// both emit the same text.
+    /// Value of an option in the kernel, whose position is `id`. A setting equal to the default shares its node, so
+    /// that both emit the same text.
     fn value_of(&mut self, field: &OptionField, info: &OptionInfo, value: &OptionValue, id: u32) -> Eval {
         if *value == info.default {
             let default = self.eval_expr(&field.default)?;
@@ -247,8 +248,8 @@ impl Evaluator<'_> {
     }
 }
 
-/// Canonical form of a number, so that all spellings of one `f32` or integer agree: the shortest decimal, or all digits of
-/// a whole number.
+/// Canonical form of a number, so that all spellings of one `f32` or integer agree: the shortest decimal, or all digits
+/// of a whole number.
 fn canonical_number(number: f64) -> f64 {
     if number.fract() == 0.0 && number.abs() < 1e15 {
         // -0 + 0 is 0.

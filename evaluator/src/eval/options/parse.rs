@@ -102,7 +102,8 @@ fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Box<Diagnostic>> 
         let what = format!("`{}` is not a value of the option `{}`", shorten(text), info.name);
         Box::new(Diagnostic::new(Code::OptionValue, what).help(allowed))
     };
-    let is_choice = |name: &str| matches!(&info.kind, OptionKind::Choice(all) if all.iter().any(|(known, _)| known == name));
+    let is_choice =
+        |name: &str| matches!(&info.kind, OptionKind::Choice(all) if all.iter().any(|(known, _)| known == name));
     if let Some(default) = override_default(text).filter(|_| !is_choice(text)) {
         return parse_override(info, default);
     }
