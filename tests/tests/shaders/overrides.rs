@@ -9,7 +9,7 @@ use straightline_kernels::prelude::Frame;
 use straightline_tests::sraa::surfaces;
 use straightline_tests::{compilers, passthrough};
 
-/// Products and sums alone, which no driver rounds in two ways.
+/// A sum and then products, which drivers cannot contract.
 const TEXT: &str = "
 options! {
     pub struct Cfg {
@@ -28,10 +28,10 @@ pub fn k(cfg: &Cfg, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let mut sum = Vec4::ZERO;
     for x in 0..cfg.radius {
         let offset = if cfg.mirrored { -x } else { x };
-        sum += color.load(pixel + ivec2(offset, 0)) * (cfg.tau * 2.0);
+        sum += color.load(pixel + ivec2(offset, 0));
     }
     // Overflows: an expression of constants alone would be refused.
-    sum * ((cfg.seed.wrapping_mul(4_000_000_000) >> 28) as f32) + Vec4::splat((cfg.radius * 2_000_000_000) as f32)
+    sum * (cfg.tau * 2.0) * ((cfg.seed.wrapping_mul(4_000_000_000) >> 28) as f32)
 }";
 
 const LANGUAGES: [Target; 4] = [Target::Wgsl, Target::Spirv, Target::Glsl450, Target::Hlsl];
@@ -183,12 +183,12 @@ fn words_have_a_specialization_constant_for_each() {
     let emitted = overridden.emit(&options).unwrap_or_else(|e| panic!("{e}"));
     let words = compilers::words(&emitted.files[&Target::Spirv]);
     // `OpSpecConstant` and `OpSpecConstantFalse`, and `OpDecorate` with `SpecId`.
-    let constants: Vec<u32> = compilers::instructions(&words, 50).iter().map(|i| i[3]).collect();
+    let constants: Vec<u32> = compilers::instructions(&words, 50).iter().map(|i| i[2]).collect();
     assert_eq!(constants, [2, 500.0_f32.to_bits(), 7]);
     assert_eq!(compilers::instructions(&words, 49).len(), 1);
     let ids = compilers::instructions(&words, 71)
         .into_iter()
-        .filter(|i| i[2] == 1)
-        .map(|i| i[3]);
+        .filter(|i| i[1] == 1)
+        .map(|i| i[2]);
     assert_eq!(ids.collect::<Vec<_>>(), [0, 1, 2, 3]);
 }
