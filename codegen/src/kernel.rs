@@ -3,6 +3,7 @@
 use crate::compiled::Compiled;
 use crate::emit::Emitted;
 use crate::files::{self, shorten};
+use crate::overridden::{self, Overridable, reads_override};
 use crate::pipeline::{self, Change, Observer, Source, Start};
 use crate::spec::{Settings, ShaderSpec};
 use std::borrow::Cow;
@@ -344,7 +345,13 @@ impl Kernel {
         deep(|| {
             let _meter = Meter::open(settings.limits());
             let library = self.typed_library()?;
-            let (start, _) = pipeline::evaluate(&self.source, &library, settings)?;
+            let resolved = self.resolved(settings)?;
+            let evaluated = pipeline::evaluate(&self.source, &library, &resolved);
+            let (start, _) = evaluated.map_err(|errors| {
+                self.blame_overrides(&resolved, errors, &|settings| {
+                    pipeline::evaluate(&self.source, &library, settings).map(drop)
+                })
+            })?;
             Ok(start)
         })
     }
@@ -359,17 +366,56 @@ impl Kernel {
         deep(|| {
             let _meter = Meter::open(settings.limits());
             let library = self.typed_library()?;
-            let settings = match self.with_preset(&settings.options)? {
-                Cow::Borrowed(_) => Cow::Borrowed(settings),
-                Cow::Owned(options) => Cow::Owned(Settings {
-                    options,
-                    ..settings.clone()
-                }),
-            };
-            let mut compiled = pipeline::compile(&self.source, &library, &settings, observer, change)?;
+            let settings = self.resolved(settings)?;
+            let compiled = pipeline::compile(&self.source, &library, &settings, observer, change);
+            let mut compiled = compiled.map_err(|errors| {
+                self.blame_overrides(&settings, errors, &|settings| {
+                    pipeline::compile(&self.source, &library, settings, &mut |_, _| {}, change).map(drop)
+                })
+            })?;
             compiled.changed = self.changed_options(&library, &settings, &compiled.options)?;
             Ok(compiled)
         })
+    }
+
+    /// Settings with the options of their preset, and those to be overridden spelled as such.
+    fn resolved<'a>(&self, settings: &'a Settings) -> Result<Cow<'a, Settings>, Errors> {
+        let options = self.with_preset(&settings.options)?;
+        if matches!(options, Cow::Borrowed(_)) && settings.overrides.is_empty() {
+            return Ok(Cow::Borrowed(settings));
+        }
+        Ok(Cow::Owned(Settings {
+            options: settings.with_overrides(options.into_owned()),
+            ..settings.clone()
+        }))
+    }
+
+    /// Errors that name the overrides to which they are due.
+    fn blame_overrides(
+        &self,
+        settings: &Settings,
+        errors: Errors,
+        compile: &dyn Fn(&Settings) -> Result<(), Errors>,
+    ) -> Errors {
+        match self.option_values(&settings.options) {
+            Ok(values) => overridden::blame_overrides(&settings.options, &values, errors, &|options| {
+                compile(&Settings {
+                    options,
+                    ..settings.clone()
+                })
+            }),
+            Err(_) => errors,
+        }
+    }
+
+    /// Returns whether an option can be overridden, the other options at their defaults.
+    ///
+    /// # Errors
+    ///
+    /// All errors of the kernel without settings.
+    pub fn overridable(&self, option: &str) -> Result<Overridable, Errors> {
+        let compiled = self.compile(&Settings::new().override_options([option]));
+        Overridable::from_outcome(compiled.map(|compiled| reads_override(&compiled.graph)))
     }
 
     /// Names of the options whose values differ from those of a kernel without settings.

@@ -130,6 +130,15 @@ impl Diagnostic {
         }
     }
 
+    /// Returns the error with another code and message, at the same location.
+    pub fn restated(self, code: Code, message: String) -> Self {
+        Diagnostic {
+            code: Some(code),
+            message,
+            ..self
+        }
+    }
+
     /// Sets the label at the location.
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();

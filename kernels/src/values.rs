@@ -19,6 +19,8 @@ pub enum OptionValue {
     Numbers(Vec<f64>),
     /// Number that a host sets at run time.
     Uniform,
+    /// Number or flag that a host may set when it creates the pipeline, with the value that it has otherwise.
+    Override(Box<OptionValue>),
 }
 
 impl OptionValue {
@@ -38,7 +40,7 @@ impl OptionValue {
         }
     }
 
-    /// Number, if it is a compile-time constant; `None` of every other kind, and of a uniform.
+    /// Number, if it is a compile-time constant; `None` of every other kind, of a uniform and of an override.
     pub fn number(&self) -> Option<f64> {
         match self {
             OptionValue::Number(number) => Some(*number),
@@ -69,6 +71,7 @@ impl fmt::Display for OptionValue {
                 Ok(())
             }
             OptionValue::Uniform => f.write_str("uniform"),
+            OptionValue::Override(default) => write!(f, "override({default})"),
         }
     }
 }

@@ -16,6 +16,7 @@ mod hash;
 mod manifest;
 #[cfg(feature = "json")]
 mod output;
+mod override_value;
 pub mod plan;
 #[cfg(feature = "json")]
 mod precision;
@@ -34,6 +35,9 @@ pub use hash::{hash_of_bytes, hash_of_text, text_hash};
 pub use manifest::{Counts, Error, Manifest, SCHEMA, Varying};
 #[cfg(feature = "json")]
 pub use output::Output;
+#[cfg(feature = "json")]
+pub use override_value::Override;
+pub use override_value::OverrideType;
 #[cfg(feature = "json")]
 pub use precision::Precision;
 #[cfg(feature = "json")]

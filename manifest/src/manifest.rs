@@ -1,7 +1,7 @@
 //! The manifest: everything that a host must know of one shader, as JSON.
 
 use crate::chain::CHAIN_SCHEMA;
-use crate::{Binding, Form, LanguageBinding, Origin, Output, Precision, Stage, Tuned, ValueType, output};
+use crate::{Binding, Form, LanguageBinding, Origin, Output, Override, Precision, Stage, Tuned, ValueType, output};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -49,27 +49,32 @@ pub struct Manifest {
     /// block; a block that extends beyond the target stores only the pixels inside.
     #[serde(default = "one_pixel", skip_serializing_if = "is_one_pixel")]
     pub block: [u32; 2],
-    /// Further abilities that the device needs: `subgroup`, quad operations in the shader's stage; `shader-f16`, arithmetic in
-    /// half precision.
+    /// Further abilities that the device needs: `subgroup`, quad operations in the shader's stage; `shader-f16`,
+    /// arithmetic in half precision.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub features: Vec<String>,
-    /// Interpolated values that the host's vertex shader must output; fragment only. A shader with varyings is drawn in a
-    /// pipeline of the host's own.
+    /// Interpolated values that the host's vertex shader must output; fragment only. A shader with varyings is drawn in
+    /// a pipeline of the host's own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub varyings: Vec<Varying>,
     /// Textures, buffers, samplers and uniform buffers that the shader reads, in binding order. What the options make
-    /// unnecessary is not listed. Together with `outputs` this is the bind group layout, in WebGPU's words, and all that WGSL
-    /// and SPIR-V bind.
+    /// unnecessary is not listed. Together with `outputs` this is the bind group layout, in WebGPU's words, and all
+    /// that WGSL and SPIR-V bind.
     pub bindings: Vec<Binding>,
-    /// All that the other languages bind, each by its own numbers, registers or names; of functions, their parameters in order,
-    /// in WGSL too.
+    /// Options that the host may set when it creates the pipeline, in the order of the kernel's options. One that the
+    /// shader does not read is not listed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub overrides: Vec<Override>,
+    /// All that the other languages bind, each by its own numbers, registers or names; of functions, their parameters
+    /// in order, in WGSL too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub language_bindings: Vec<LanguageBinding>,
     /// Targets of the results: in JSON an object for a single one, else a list. A kernel that returns a structure or a
     /// tuple has an output for each of its fields.
     #[serde(rename = "output", with = "output")]
     pub outputs: Vec<Output>,
-    /// Every option of the kernel with the value it was generated for; `uniform` for one that is set at run time.
+    /// Every option of the kernel with the value it was generated for; `uniform` for one that is set at run time,
+    /// and `override(DEFAULT)` for one that is set when the pipeline is created.
     pub options: BTreeMap<String, String>,
     /// Operation counts of one invocation.
     pub counts: Counts,
@@ -82,8 +87,8 @@ pub struct Manifest {
     /// claims nothing of that file.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub hashes: BTreeMap<String, String>,
-    /// Languages of `files` whose texts naga has validated: WGSL as it is written, SPIR-V and MSL as translations of that, and
-    /// GLSL 4.50 where naga's reader knows all that is in it.
+    /// Languages of `files` whose texts naga has validated: WGSL as it is written, SPIR-V and MSL as translations of
+    /// that, and GLSL 4.50 where naga's reader knows all that is in it.
     #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
     pub validated: BTreeSet<String>,
     /// For a shader that `straightline tune` chose: the omitted terms, and their cost.
@@ -104,13 +109,13 @@ pub struct Varying {
     pub location: u32,
 }
 
-/// Operation counts of one invocation, taken on the generated graph. Loops count as often as they run; of the two sides of a
-/// branch the larger counts.
+/// Operation counts of one invocation, taken on the generated graph. Loops count as often as they run; of the two sides
+/// of a branch the larger counts.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
-    /// Basic blocks of the shader's text. 1 means straight-line code; a compute shader has two more, for pixels outside of
-    /// the target. Blocks of a loop's test count; blocks that a compiler adds do not.
+    /// Basic blocks of the shader's text. 1 means straight-line code; a compute shader has two more, for pixels outside
+    /// of the target. Blocks of a loop's test count; blocks that a compiler adds do not.
     pub basic_blocks: u32,
     /// Loops that are left in the shader.
     pub loops: u32,

@@ -1,16 +1,16 @@
 //! Proof that every loop of a shader ends, from its text alone.
 //!
-//! wgpu puts a bound on the iterations of every loop, because a compiler may take one that never ends for unreachable code and
-//! draw conclusions. Where it is shown here that all loops end, that bound can go.
+//! wgpu puts a bound on the iterations of every loop, because a compiler may take one that never ends for unreachable
+//! code and draw conclusions. Where it is shown here that all loops end, that bound can go.
 
 use naga::{
-    AddressSpace, BinaryOperator, Block, Expression, Function, Handle, Literal, LocalVariable, Module, Scalar,
-    Statement, TypeInner,
+    AddressSpace, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, Literal, LocalVariable, Module,
+    Scalar, Statement, TypeInner,
 };
 
-/// Checks that each loop of `module` counts up by one, from an `i32` that nothing else in it writes, to a limit that does not
-/// change in it. Such a loop ends: the counter meets every limit that an `i32` can hold before it could wrap. Emitted
-/// shaders have such loops, but for a `while` whose trip count is a runtime value, which is refused here.
+/// Checks that each loop of `module` counts up by one, from an `i32` that nothing else in it writes, to a limit that
+/// does not change in it. Such a loop ends: the counter meets every limit that an `i32` can hold before it could wrap.
+/// Emitted shaders have such loops, but for a `while` whose trip count is a runtime value, which is refused here.
 ///
 /// # Errors
 ///
@@ -183,12 +183,47 @@ fn is_invariant(
     }
 }
 
-/// Returns whether a pointer leads to a fixed place in a uniform buffer, which nothing in a shader writes.
+/// Returns whether a pointer leads to a fixed place in a uniform buffer, which nothing in a shader writes, or to a
+/// private variable that no statement writes.
 fn is_constant_memory(module: &Module, function: &Function, pointer: Handle<Expression>) -> bool {
     match function.expressions[pointer] {
-        Expression::GlobalVariable(global) => module.global_variables[global].space == AddressSpace::Uniform,
+        Expression::GlobalVariable(global) => match module.global_variables[global].space {
+            AddressSpace::Uniform => true,
+            AddressSpace::Private => !is_written(module, global),
+            _ => false,
+        },
         Expression::AccessIndex { base, .. } => is_constant_memory(module, function, base),
         _ => false,
+    }
+}
+
+/// Returns whether a statement of a module may write a variable as a whole or pass a pointer to it on.
+fn is_written(module: &Module, global: Handle<GlobalVariable>) -> bool {
+    fn in_block(function: &Function, block: &Block, global: Handle<GlobalVariable>) -> bool {
+        let is_it = |expression: &Handle<Expression>| root_global(function, *expression) == Some(global);
+        block.iter().any(|statement| {
+            let writes = match statement {
+                Statement::Store { pointer, .. } => is_it(pointer),
+                Statement::Call { arguments, .. } => arguments.iter().any(is_it),
+                _ => false,
+            };
+            writes
+                || blocks_of(statement)
+                    .into_iter()
+                    .any(|inner| in_block(function, inner, global))
+        })
+    }
+    let entries = module.entry_points.iter().map(|entry| &entry.function);
+    let mut all = entries.chain(module.functions.iter().map(|(_, function)| function));
+    all.any(|function| in_block(function, &function.body, global))
+}
+
+/// Returns the module's variable that a pointer points into.
+fn root_global(function: &Function, pointer: Handle<Expression>) -> Option<Handle<GlobalVariable>> {
+    match function.expressions[pointer] {
+        Expression::GlobalVariable(global) => Some(global),
+        Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => root_global(function, base),
+        _ => None,
     }
 }
 
@@ -198,7 +233,7 @@ mod tests {
 
     fn check_body(body: &str) -> Result<(), String> {
         let text = format!(
-            "struct U {{ n: i32, m: i32 }}\n@group(0) @binding(0) var<uniform> u: U;\n@group(0) @binding(1) var<storage, read_write> s: U;\nfn change(p: ptr<function, i32>) {{ *p = 0; }}\n@compute @workgroup_size(1)\nfn main(@builtin(global_invocation_id) id: vec3u) {{\n{body}\n}}"
+            "struct U {{ n: i32, m: i32 }}\n@group(0) @binding(0) var<uniform> u: U;\n@group(0) @binding(1) var<storage, read_write> s: U;\noverride n: i32 = 4;\nvar<private> constant: i32 = n;\nvar<private> changed: i32 = 4;\nfn change(p: ptr<function, i32>) {{ *p = 0; changed = 9; }}\n@compute @workgroup_size(1)\nfn main(@builtin(global_invocation_id) id: vec3u) {{\n{body}\n}}"
         );
         check_loops(&naga::front::wgsl::parse_str(&text).expect("WGSL"))
     }
@@ -211,6 +246,7 @@ mod tests {
             "var n = 4; for (var k = 0; k < n; k++) { var a = array<i32, 4>(); a[k] = k; }",
             "var sum = 0; for (var k = 0; k < 3; k++) { if id.x > 4u { continue; } sum = sum + k; }",
             "for (var k = 0; k < u.m; k++) { }",
+            "for (var k = 0; k < constant; k++) { }",
             // The outer counter is the inner limit.
             "for (var k = 0; k < 9; k++) { for (var j = 0; j < k; j++) { } }",
         ];
@@ -235,6 +271,7 @@ mod tests {
             ("for (var k = 0u; k < id.x; k++) { }", "does not count in `i32`"),
             ("for (var k = 0.0; k < 9.0; k += 1.0) { }", "does not count in `i32`"),
             ("for (var k = 0; k <= 9; k++) { }", "does not begin"),
+            ("for (var k = 0; k < changed; k++) { }", "may change"),
             ("var n = 4; for (var k = 0; k < n; k++) { n = n + 1; }", "may change"),
             ("var n = 4; for (var k = 0; k < n; k++) { change(&n); }", "may change"),
             (

@@ -5,11 +5,11 @@
 //! would run and give a wrong picture.
 
 use crate::spelling::Spelling;
-use naga::{AddressSpace, GlobalVariable, ImageClass, Module, ScalarKind, ShaderStage, TypeInner};
+use naga::{AddressSpace, Expression, GlobalVariable, ImageClass, Literal, Module, ScalarKind, ShaderStage, TypeInner};
 use straightline_manifest::plan::{
     BufferPlan, InputKind, InputPlan, OutputPlan, Plan, StagePlan, TexturePlan, UniformPlan,
 };
-use straightline_manifest::{Component, Dimension, Format, SampleType, SamplerType, Scalar, ValueType};
+use straightline_manifest::{Component, Dimension, Format, OverrideType, SampleType, SamplerType, Scalar, ValueType};
 
 /// Checks that `module` is the shader that `plan` describes, with names as `spelling` has them.
 pub fn check_plan(plan: &Plan, spelling: &Spelling<'_>, module: &Module) -> Result<(), String> {
@@ -25,7 +25,45 @@ pub fn check_plan(plan: &Plan, spelling: &Spelling<'_>, module: &Module) -> Resu
             check_storage(spelling, module, output, place)?;
         }
     }
+    check_overrides(plan, module)?;
     nothing_else(plan, module)
+}
+
+/// Checks that the overrides are those of the plan, by their numbers, with the same types and defaults.
+fn check_overrides(plan: &Plan, module: &Module) -> Result<(), String> {
+    for of in plan.overrides.iter() {
+        let (name, id) = (&of.name, of.id);
+        let numbered = module
+            .overrides
+            .iter()
+            .find(|(_, found)| found.id.map(u32::from) == Some(id));
+        let Some((_, found)) = numbered else {
+            return Err(format!("it has no override @id({id}), where `{name}` should be"));
+        };
+        let default = found.init.map(|init| &module.global_expressions[init]);
+        let bits = match default {
+            Some(Expression::Literal(Literal::F32(number))) => (OverrideType::F32, number.to_bits()),
+            Some(Expression::Literal(Literal::I32(number))) => (OverrideType::I32, *number as u32),
+            Some(Expression::Literal(Literal::U32(number))) => (OverrideType::U32, *number),
+            Some(Expression::Literal(Literal::Bool(on))) => (OverrideType::Bool, u32::from(*on)),
+            _ => return Err(format!("the override `{name}` has no default")),
+        };
+        if bits != (of.ty, of.ty.bits(of.default)) {
+            let wanted = (of.ty, of.default);
+            return Err(format!(
+                "the default of the override `{name}` is not the {} {} of the manifest",
+                wanted.0, wanted.1
+            ));
+        }
+    }
+    match module.overrides.len() > plan.overrides.len() {
+        true => Err(format!(
+            "it has {} overrides, and the manifest lists {}",
+            module.overrides.len(),
+            plan.overrides.len()
+        )),
+        false => Ok(()),
+    }
 }
 
 fn entry_point(plan: &Plan, module: &Module) -> Result<(), String> {

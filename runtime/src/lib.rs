@@ -56,6 +56,7 @@
 //!   `sampler` or `sampler_comparison`.
 //! - Buffers are `var<storage, read>` arrays of a scalar or vector.
 //! - Values set at run time are members of a uniform struct.
+//! - Options set when the pipeline is created are `override` declarations, each with an `@id`.
 //! - A shader for regions has one more, which says what rectangle of the inputs goes where in the target.
 
 mod bind;
@@ -68,6 +69,7 @@ mod inputs;
 mod layout;
 mod module;
 mod options;
+mod overrides;
 mod pass;
 mod pipeline;
 #[doc(hidden)]
@@ -87,6 +89,7 @@ pub use chain::{BoundChain, Chain, ChainShaders};
 pub use draw::{BoundDraw, Draw, DrawOptions, VertexShader};
 pub use error::{BufferProblem, ChainProblem, Error, Names, SamplerProblem, ViewProblem};
 pub use options::{BindOptions, PassOptions};
+pub use overrides::OverrideValue;
 pub use pass::Pass;
 pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quads};
 pub use region::Region;

@@ -1,6 +1,6 @@
 //! Options of making and of binding a pass.
 
-use crate::{Region, UniformValue};
+use crate::{OverrideValue, Region, UniformValue};
 use wgpu::TextureFormat;
 
 /// Choices that the manifest leaves open.
@@ -12,12 +12,27 @@ pub struct PassOptions {
     pub target_format: Option<TextureFormat>,
     /// Formats of single targets, by name, of a kernel that writes several.
     pub formats: Vec<(String, TextureFormat)>,
-    /// `true` if loops run without wgpu's bound on their iterations, whose counter costs time. Only for shaders whose text
-    /// shows that every loop ends, as emitted shaders do; all others are rejected.
+    /// `true` if loops run without wgpu's bound on their iterations, whose counter costs time. Only for shaders whose
+    /// text shows that every loop ends, as emitted shaders do; all others are rejected.
     pub unbounded_loops: bool,
+    /// Values of options that the shader takes when the pipeline is created, by name; the others have the manifest's
+    /// defaults.
+    pub overrides: Vec<(String, OverrideValue)>,
 }
 
 impl PassOptions {
+    /// Sets an option of the kernel that the shader was emitted with as an override. Another value needs another pass,
+    /// but no other shader.
+    ///
+    /// ```
+    /// # use straightline_runtime::PassOptions;
+    /// let options = PassOptions::default().override_option("tau", 300.0).override_option("radius", 2);
+    /// ```
+    pub fn override_option(mut self, name: &str, value: impl Into<OverrideValue>) -> Self {
+        self.overrides.push((name.to_owned(), value.into()));
+        self
+    }
+
     /// Draws to targets of `format`.
     pub fn target_format(mut self, format: TextureFormat) -> Self {
         self.target_format = Some(format);

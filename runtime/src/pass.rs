@@ -4,6 +4,7 @@ use crate::guard::LossProbe;
 use crate::inputs::Abilities;
 use crate::layout::Layout;
 use crate::module::Source;
+use crate::overrides::{chosen_overrides, pipeline_constants};
 use crate::pipeline::{Pipeline, check_formats};
 use crate::plan::Plan;
 use crate::{Error, PassOptions, Shader};
@@ -32,9 +33,11 @@ impl Pass {
     ///
     /// # Errors
     ///
-    /// [`Error::Limit`], [`Error::Shader`], [`Error::Pipeline`] and [`Error::OutOfMemory`] if the device cannot run the
-    /// shader; [`Error::TargetFormat`] if the shader cannot write the format asked for; [`Error::UnboundedLoop`] if loops are to
-    /// go without a bound and one may not end; [`Error::DeviceLost`].
+    /// [`Error::UnknownOverride`], [`Error::OverrideType`] and [`Error::OverrideValue`] for an override that the shader
+    /// does not have or that cannot have the value; [`Error::Limit`], [`Error::Shader`], [`Error::Pipeline`] and
+    /// [`Error::OutOfMemory`] if the device cannot run the shader; [`Error::TargetFormat`] if the shader cannot write the
+    /// format asked for; [`Error::UnboundedLoop`] if loops are to go without a bound and one may not end;
+    /// [`Error::DeviceLost`].
     pub fn from_shader(device: &Device, shader: &Shader<'_>, options: &PassOptions) -> Result<Self, Error> {
         check_varyings(&shader.plan)?;
         let source = Source::from_shader(shader, options);
@@ -50,10 +53,11 @@ impl Pass {
     ) -> Result<Self, Error> {
         check_features(device, &plan)?;
         let formats = check_formats(device, &plan, options)?;
+        let constants = pipeline_constants(&chosen_overrides(&plan, options)?);
         let doing = format!("making a pass of `{}`", plan.kernel);
         let loss_probe = LossProbe::new(device, &doing)?;
         let layout = Layout::new(device, &plan)?;
-        let (pipeline, creation_time) = Pipeline::new(device, &plan, &layout, source, &formats)?;
+        let (pipeline, creation_time) = Pipeline::new(device, &plan, &layout, source, (&formats, &constants))?;
         // Lost meanwhile, everything above was made without complaint and is dead.
         loss_probe.check(device, &doing)?;
         Ok(Pass {

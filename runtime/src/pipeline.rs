@@ -4,6 +4,7 @@ use crate::error::Names;
 use crate::guard::{run_guarded, run_scoped};
 use crate::layout::{Layout, texture_format};
 use crate::module::Source;
+use crate::overrides::borrow_constants;
 use crate::plan::{OutputPlan, Plan, StagePlan};
 use crate::{Error, PassOptions};
 use std::time::Duration;
@@ -22,13 +23,14 @@ pub(crate) enum Pipeline {
 }
 
 impl Pipeline {
-    /// Compiles a shader for targets of `formats`, and tells how long making the pipeline took once the shader was checked.
+    /// Compiles a shader for targets of `formats` with overrides at `constants`, and tells how long making the pipeline
+    /// took once the shader was checked.
     pub(crate) fn new(
         device: &Device,
         plan: &Plan,
         layout: &Layout,
         source: Source<'_>,
-        formats: &[TextureFormat],
+        (formats, constants): (&[TextureFormat], &[(String, f64)]),
     ) -> Result<(Self, Duration), Error> {
         let kernel = &plan.kernel;
         let label = Some(kernel.as_ref());
@@ -51,6 +53,7 @@ impl Pipeline {
                         module: &module,
                         entry_point: Some(&plan.entry_point),
                         compilation_options: wgpu::PipelineCompilationOptions {
+                            constants: &borrow_constants(constants),
                             zero_initialize_workgroup_memory: !fills_memory,
                             ..wgpu::PipelineCompilationOptions::default()
                         },
@@ -72,7 +75,7 @@ impl Pipeline {
                     multisample: wgpu::MultisampleState::default(),
                     blend: None,
                 };
-                let pipeline = render_pipeline(device, plan, layout, (side, &module), formats)?;
+                let pipeline = render_pipeline(device, plan, layout, (side, &module), (formats, constants))?;
                 Pipeline::Render(pipeline)
             }
         };
@@ -92,13 +95,13 @@ pub(crate) struct VertexSide<'a> {
     pub(crate) blend: Option<wgpu::BlendState>,
 }
 
-/// A pipeline that draws with the plan's fragment shader to targets of `formats`.
+/// A pipeline that draws with the plan's fragment shader to targets of `formats`, with overrides at `constants`.
 pub(crate) fn render_pipeline(
     device: &Device,
     plan: &Plan,
     layout: &Layout,
     (side, fragment): (VertexSide<'_>, &wgpu::ShaderModule),
-    formats: &[TextureFormat],
+    (formats, constants): (&[TextureFormat], &[(String, f64)]),
 ) -> Result<wgpu::RenderPipeline, Error> {
     let kernel = &plan.kernel;
     let targets: Vec<_> = formats
@@ -130,7 +133,10 @@ pub(crate) fn render_pipeline(
             fragment: Some(wgpu::FragmentState {
                 module: fragment,
                 entry_point: Some(&plan.entry_point),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &borrow_constants(constants),
+                    ..wgpu::PipelineCompilationOptions::default()
+                },
                 targets: &targets,
             }),
             multiview_mask: None,

@@ -6,7 +6,7 @@ pub use straightline_manifest::chain::{
     CHAIN_SCHEMA, ChainPlan, PassPlan, PicturePlan, ReadPlan, SizeOp, SizeRule, SizeTerm,
 };
 pub use straightline_manifest::plan::{
-    BufferPlan, FieldPlan, InputKind, InputPlan, OutputPlan, PartPlan, Plan, StagePlan, TexturePlan, UniformPlan,
-    VaryingPlan,
+    BufferPlan, FieldPlan, InputKind, InputPlan, OutputPlan, OverridePlan, PartPlan, Plan, StagePlan, TexturePlan,
+    UniformPlan, VaryingPlan,
 };
-pub use straightline_manifest::{Dimension, Extent, Format, SampleType, SamplerType, Scalar, ValueType};
+pub use straightline_manifest::{Dimension, Extent, Format, OverrideType, SampleType, SamplerType, Scalar, ValueType};

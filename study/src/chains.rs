@@ -146,7 +146,7 @@ fn study_chain(
     });
     Ok(ChainForms {
         chain: name.clone(),
-        options: subject.shader.settings.options.clone(),
+        options: subject.shader.settings.option_texts(),
         forms: recorded.collect(),
     })
 }

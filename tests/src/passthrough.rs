@@ -3,7 +3,7 @@
 
 use crate::compilers;
 use glam::Vec4;
-use straightline_bench::execute::{AllWritten, Bench, Buffers, Inputs, SamplerState, Written};
+use straightline_bench::execute::{AllWritten, Bench, Buffers, Inputs, SamplerState, Written, override_options};
 use straightline_codegen::Stage;
 use straightline_codegen::emit::{Emitted, Target};
 use straightline_kernels::prelude::Frame;
@@ -91,7 +91,7 @@ pub fn written(
         manifest.entry_point = "main".to_owned();
     }
     let inputs = with_language_bindings(&mut manifest, target, inputs)?;
-    let pass = pass(bench, &manifest, words)?;
+    let pass = pass(bench, &manifest, words, &override_options(&manifest, &inputs))?;
     let uploaded = bench.upload(&manifest, &inputs).map_err(|e| e.to_string())?;
     let written = bench.written_by(&pass, &uploaded, inputs.size);
     let written = written.map_err(|e| e.to_string())?;
@@ -156,9 +156,9 @@ fn with_language_bindings(manifest: &mut Manifest, target: Target, inputs: &Inpu
 
 /// wgpu leaves SPIR-V unchecked. These words come from a compiler, of a text that the generator wrote together with the manifest.
 #[allow(unsafe_code)]
-fn pass(bench: &Bench, manifest: &Manifest, words: &[u32]) -> Result<Pass, String> {
+fn pass(bench: &Bench, manifest: &Manifest, words: &[u32], options: &PassOptions) -> Result<Pass, String> {
     // SAFETY: text and manifest are of one run of the generator, whose texts read within bounds and have loops that end, and the
     // compiler made a valid module of the text.
-    let pass = unsafe { Pass::from_spirv(bench.device(), manifest, words, &PassOptions::default()) };
+    let pass = unsafe { Pass::from_spirv(bench.device(), manifest, words, options) };
     pass.map_err(|e| e.to_string())
 }

@@ -1,6 +1,7 @@
 //! Chains of passes on a device.
 
 use super::gpu::Uploaded;
+use super::gpu::override_options;
 use super::{Bench, ExecuteError, Inputs, Work, Written, picture_size};
 use std::time::Duration;
 use straightline_codegen::chain::EmittedChain;
@@ -12,15 +13,14 @@ impl Bench {
     /// # Errors
     ///
     /// If the device cannot run one of them.
-    pub fn create_chain(&self, emitted: &EmittedChain) -> Result<Chain, ExecuteError> {
+    pub fn create_chain(&self, emitted: &EmittedChain, options: &PassOptions) -> Result<Chain, ExecuteError> {
         let shaders = emitted.shaders.iter().map(|(name, pass)| {
             let shader = Shader::from_manifest(&pass.emitted.manifest, pass.emitted.wgsl())?;
             Ok((name.as_str(), shader))
         });
         let shaders = shaders.collect::<Result<Vec<_>, ExecuteError>>()?;
         let shaders: Vec<(&str, &Shader<'_>)> = shaders.iter().map(|(name, shader)| (*name, shader)).collect();
-        let options = PassOptions::default();
-        Ok(Chain::from_shaders(&self.device, &emitted.plan, &shaders, &options)?)
+        Ok(Chain::from_shaders(&self.device, &emitted.plan, &shaders, options)?)
     }
 
     /// Puts onto the device what a chain takes from the caller.
@@ -38,7 +38,12 @@ impl Bench {
     ///
     /// If it cannot be run on these inputs.
     pub fn bind_chain(&self, emitted: &EmittedChain, inputs: &Inputs) -> Result<BoundChain, ExecuteError> {
-        let chain = self.create_chain(emitted)?;
+        let mut options = PassOptions::default();
+        for pass in emitted.shaders.values() {
+            let of_pass = override_options(&pass.emitted.manifest, inputs);
+            options.overrides.extend(of_pass.overrides);
+        }
+        let chain = self.create_chain(emitted, &options)?;
         let uploaded = self.upload_for_chain(emitted, inputs)?;
         let mut views = Vec::new();
         for (picture, (name, format)) in emitted.plan.results().zip(chain.targets()) {

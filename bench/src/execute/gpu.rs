@@ -7,7 +7,9 @@ use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::Emitted;
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{Binding, BindingKind, BufferType, Element, Manifest, SamplerType, UniformField};
+use straightline_manifest::{
+    Binding, BindingKind, BufferType, Element, Manifest, OverrideType, SamplerType, UniformField,
+};
 use straightline_runtime::{
     BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
     UniformValue,
@@ -184,6 +186,22 @@ impl Bench {
         Ok((pass, emitted.manifest))
     }
 
+    /// As [`emit_pass`](Self::emit_pass), with the values of overrides that `inputs` have among the uniforms.
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be emitted, the device cannot run it, or an override cannot have its value.
+    pub fn emit_pass_for(
+        &self,
+        compiled: &Compiled,
+        options: &EmitOptions,
+        inputs: &Inputs,
+    ) -> Result<(Pass, Manifest), ExecuteError> {
+        let emitted = compiled.emit(options)?;
+        let pass = self.create_pass(&emitted, &override_options(&emitted.manifest, inputs))?;
+        Ok((pass, emitted.manifest))
+    }
+
     /// Makes a pass of an emitted shader, by its WGSL.
     ///
     /// # Errors
@@ -334,7 +352,7 @@ impl Bench {
         stage: Stage,
         inputs: &Inputs,
     ) -> Result<Vec<Written>, ExecuteError> {
-        let (pass, manifest) = self.compile_pass(compiled, stage)?;
+        let (pass, manifest) = self.emit_pass_for(compiled, &self.emit_options(stage), inputs)?;
         let uploaded = self.upload(&manifest, inputs)?;
         self.written_by(&pass, &uploaded, inputs.size)
     }
@@ -345,7 +363,7 @@ impl Bench {
     ///
     /// If it cannot be emitted or run on these inputs.
     pub fn all_written(&self, compiled: &Compiled, stage: Stage, inputs: &Inputs) -> Result<AllWritten, ExecuteError> {
-        let (pass, manifest) = self.compile_pass(compiled, stage)?;
+        let (pass, manifest) = self.emit_pass_for(compiled, &self.emit_options(stage), inputs)?;
         let uploaded = self.upload(&manifest, inputs)?;
         let targets = self.written_by(&pass, &uploaded, inputs.size)?;
         Ok((targets, self.read_buffers(&manifest, &uploaded)?))
@@ -617,6 +635,20 @@ impl Bench {
             message: e.to_string(),
         })
     }
+}
+
+/// Options of a pass with the values that `inputs` have for the overrides of a shader, among the uniforms.
+pub fn override_options(manifest: &Manifest, inputs: &Inputs) -> PassOptions {
+    manifest.overrides.iter().fold(PassOptions::default(), |options, of| {
+        let value = find_entry(&inputs.uniforms, &of.name).and_then(|numbers| numbers.first().copied());
+        match (value, of.ty) {
+            (None, _) => options,
+            (Some(value), OverrideType::F32) => options.override_option(&of.name, value as f32),
+            (Some(value), OverrideType::I32) => options.override_option(&of.name, value as i32),
+            (Some(value), OverrideType::U32) => options.override_option(&of.name, value as u32),
+            (Some(value), OverrideType::Bool) => options.override_option(&of.name, value != 0.0),
+        }
+    })
 }
 
 /// The uniforms of a shader that `inputs` say; of the region's none, which is stated with each that is bound.

@@ -20,7 +20,7 @@ use straightline_kernels::prelude::Frame;
 pub use chain::{interpret_chain, picture_size};
 pub use cpu::{Interpreted, find_unset_uniform, interpret_kernel, sampler_state};
 pub use forward::{Corner, Forward};
-pub use gpu::{AllWritten, Bench, Buffers, Uploaded, texture_bytes};
+pub use gpu::{AllWritten, Bench, Buffers, Uploaded, override_options, texture_bytes};
 pub use shadowed::Shadowed;
 pub use straightline_scene::inputs::{Address, Comparison, Inputs, SamplerState};
 pub use synthetic::test_inputs;

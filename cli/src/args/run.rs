@@ -26,7 +26,7 @@ pub struct GivenArgs {
     /// a colour in sRGB. FILE,linear and FILE,srgb override that; normals in a PNG need FILE,linear.
     #[arg(long, value_name = "[NAME=]FILE[,FILE...]")]
     pub input: Vec<String>,
-    /// Value of a uniform: NAME=NUMBER, or NAME=X,Y,Z for a vector; may be given several times
+    /// Value of a uniform or override: NAME=NUMBER, or NAME=X,Y,Z for a vector; may be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = pair)]
     pub uniform: Vec<(String, String)>,
     /// Elements of a buffer: NAME=A,B,C, or NAME=0*256 for 256 equal elements; may be given several times

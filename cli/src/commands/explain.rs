@@ -107,10 +107,11 @@ fn print_section(head: &str, text: &str) {
     );
 }
 
-/// Names of the shader's inputs and uniforms: exactly what a host must bind.
+/// Names of the shader's inputs and uniforms, exactly what a host must bind, and of its overrides.
 struct Bound {
     inputs: Vec<String>,
     uniforms: Vec<String>,
+    overrides: Vec<String>,
 }
 
 fn bound_names(manifest: &Manifest) -> Bound {
@@ -121,7 +122,11 @@ fn bound_names(manifest: &Manifest) -> Bound {
             _ => inputs.push(binding.name.clone()),
         }
     }
-    Bound { inputs, uniforms }
+    Bound {
+        inputs,
+        uniforms,
+        overrides: manifest.overrides.iter().map(|of| of.name.clone()).collect(),
+    }
 }
 
 fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<PaperCounts>) -> Map<String, Value> {
@@ -131,6 +136,7 @@ fn to_json(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pa
     out.insert("options".into(), json!(compiled.options.spelled()));
     out.insert("inputs".into(), json!(bound.inputs));
     out.insert("uniforms".into(), json!(bound.uniforms));
+    out.insert("overrides".into(), json!(bound.overrides));
     if let Value::Object(figures) = json!(counts) {
         for (name, figure) in figures {
             // Tallies appear among the other counts under their own names.
@@ -218,6 +224,9 @@ fn print(compiled: &Compiled, counts: &Counts, bound: &Bound, paper: Option<Pape
     print_section("Unroll", &compiled.policy.to_string());
     print_section("Inputs", &bound.inputs.join(", "));
     print_section("Uniforms", &bound.uniforms.join(", "));
+    if !bound.overrides.is_empty() {
+        print_section("Overrides", &bound.overrides.join(", "));
+    }
     outln!();
     let mut rows = vec![
         count_row("basic blocks", counts.basic_blocks, None),

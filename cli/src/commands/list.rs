@@ -5,7 +5,8 @@ use crate::failure::Failure;
 use crate::paragraph::wrap_text;
 use serde_json::{Value, json};
 use straightline_codegen::chain::Chain;
-use straightline_codegen::{Kernel, OptionInfo, OptionKind, shorten};
+use straightline_codegen::diagnostic::File;
+use straightline_codegen::{Kernel, OptionInfo, OptionKind, Overridable, shorten};
 use straightline_engines::description::Description;
 use straightline_engines::{Engine, MEANINGS, engine_names};
 use straightline_kernels::{CATALOGUE, Entry, Preset};
@@ -135,8 +136,9 @@ fn print_meanings(description: &Description) {
 fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
     if let (Some(chain), false) = (Chain::from_argument(name)?, as_json) {
         outln!("{}: a chain of passes", chain.name());
-        print_options(&chain.options()?);
-        return Ok(());
+        return print_options(&chain.options()?, &|name| {
+            Ok(overridable(chain.overridable(name)?, chain.files()))
+        });
     }
     let kernel = Kernel::from_argument(name)?;
     if as_json {
@@ -150,17 +152,44 @@ fn print_kernel(name: &str, as_json: bool) -> Result<(), Failure> {
         outln!("\nPresets, for `--set preset=NAME`; options set beside one override its own:");
         kernel.presets().iter().for_each(print_preset);
     }
-    print_options(&options);
+    print_options(&options, &|name| {
+        Ok(overridable(kernel.overridable(name)?, kernel.files()))
+    })
+}
+
+/// Text on an option that says whether it can be overridden.
+type Describe<'a> = dyn Fn(&str) -> Result<String, Failure> + 'a;
+
+fn print_options(options: &[OptionInfo], overridable: &Describe<'_>) -> Result<(), Failure> {
+    if options.is_empty() {
+        outln!("\nIt has no options.");
+        return Ok(());
+    }
+    outln!("\nOptions, for `--set OPTION=VALUE`:");
+    for option in options {
+        print_option(option);
+        let is_single = matches!(option.kind, OptionKind::Number(_) | OptionKind::Flag);
+        if is_single {
+            let text = overridable(&option.name)?;
+            outln!("{}", wrap_text(&text, WIDTH, "    ", "      "));
+        }
+    }
     Ok(())
 }
 
-fn print_options(options: &[OptionInfo]) {
-    if options.is_empty() {
-        outln!("\nIt has no options.");
-        return;
-    }
-    outln!("\nOptions, for `--set OPTION=VALUE`:");
-    options.iter().for_each(print_option);
+/// Says of an option whether it can be overridden, and where a constant is needed if not.
+fn overridable(answer: Overridable, files: &[File]) -> String {
+    let refused = match answer {
+        Overridable::Yes => return "can be overridden: `--override`".to_owned(),
+        Overridable::Unread => return "can be overridden, where other options have it read".to_owned(),
+        Overridable::No(refused) => refused,
+    };
+    let reason = refused.message.split_once(": ").map_or("", |(_, reason)| reason);
+    let place = refused.span.and_then(|span| {
+        let file = files.get(span.file as usize)?;
+        Some(format!(" ({}:{})", file.path, span.line))
+    });
+    format!("cannot be overridden: {reason}{}", place.unwrap_or_default())
 }
 
 fn print_preset(preset: &Preset) {
@@ -253,7 +282,9 @@ fn engine_json(engine: &Engine) -> Value {
 
 fn kernel_json(kernel: &Kernel) -> Result<Value, Failure> {
     let summary = straightline_kernels::find(kernel.name()).map(|entry| entry.summary);
-    let options: Vec<Value> = kernel.options()?.iter().map(option_json).collect();
+    let options = kernel.options()?;
+    let options = options.iter().map(|option| option_json(kernel, option));
+    let options = options.collect::<Result<Vec<Value>, Failure>>()?;
     let presets: Vec<Value> = kernel.presets().iter().map(preset_json).collect();
     Ok(json!({ "name": kernel.name(), "summary": summary, "presets": presets, "options": options }))
 }
@@ -262,7 +293,7 @@ fn preset_json(preset: &Preset) -> Value {
     json!({ "name": preset.name, "summary": preset.summary, "options": settings(preset) })
 }
 
-fn option_json(option: &OptionInfo) -> Value {
+fn option_json(kernel: &Kernel, option: &OptionInfo) -> Result<Value, Failure> {
     let values = match &option.kind {
         OptionKind::Choice(values) => json!(
             values
@@ -278,8 +309,12 @@ fn option_json(option: &OptionInfo) -> Value {
         }
         OptionKind::Flag => json!(["true", "false"]),
     };
-    json!({
+    let overridable = match option.kind {
+        OptionKind::Number(_) | OptionKind::Flag => !matches!(kernel.overridable(&option.name)?, Overridable::No(_)),
+        OptionKind::Choice(_) | OptionKind::List { .. } => false,
+    };
+    Ok(json!({
         "name": option.name, "docs": option.docs, "default": option.default.to_string(), "values": values,
-        "uniform_by_default": option.uniform,
-    })
+        "uniform_by_default": option.uniform, "overridable": overridable,
+    }))
 }

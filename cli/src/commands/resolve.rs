@@ -126,6 +126,8 @@ fn measure_errors(capture: &Capture, resolved: &Frame<Vec4>) -> Result<(f64, f64
 /// Returns the requested options, completed by those that the capture determines: its sample positions.
 fn with_capture(kernel: &Kernel, options: &SettingsArgs, capture: &Capture) -> Result<Settings, Failure> {
     let mut settings = options.settings();
+    settings.options = settings.option_texts();
+    settings.overrides.clear();
     let sampled = gbuffer::sampled_at(capture);
     let asked = kernel.option_values(&settings.options)?;
     let decided = kernel.option_values(&sampled)?;
@@ -150,9 +152,10 @@ fn with_capture(kernel: &Kernel, options: &SettingsArgs, capture: &Capture) -> R
         let values = kernel.option_values(&settings.options)?;
         settings.options = gbuffer::in_parallel(&settings.options, &values, height);
     }
-    if let Some((name, _)) = asked.iter().find(|(_, value)| **value == OptionValue::Uniform) {
+    let is_left = |value: &OptionValue| matches!(value, OptionValue::Uniform | OptionValue::Override(_));
+    if let Some((name, value)) = asked.iter().find(|(_, value)| is_left(value)) {
         return Err(Failure::Usage(format!(
-            "`{name}=uniform` leaves the value to a host; here give a number"
+            "`{name}={value}` leaves the value to a host; here give a number"
         )));
     }
     Ok(settings)

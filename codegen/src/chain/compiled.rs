@@ -104,6 +104,11 @@ impl CompiledChain {
                     all.buffers.push(buffer);
                 }
             }
+            for of in &graph.overrides {
+                if all.overrides.iter().all(|known| known.name != of.name) {
+                    all.overrides.push(of.clone());
+                }
+            }
             for uniform in &graph.uniforms {
                 if all.uniforms.iter().all(|known| known.name != uniform.name) {
                     all.uniforms.push(uniform.clone());

@@ -118,6 +118,7 @@ impl Compiler<'_> {
             .any(|pass| pass.entry == entry && pass.has_options);
         if !has_options {
             settings.options.clear();
+            settings.overrides.clear();
         }
         settings
     }

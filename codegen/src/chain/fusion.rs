@@ -144,7 +144,14 @@ fn pays(each: usize, total: usize) -> bool {
 /// Cost of a texel of a picture in operations.
 fn operations(start: &Start) -> usize {
     let cost = |op: &Op| match op {
-        Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Extract(_) | Op::Compose | Op::Splat => 0,
+        Op::Const(_)
+        | Op::Pixel
+        | Op::FrameSize
+        | Op::Uniform(_)
+        | Op::Override(_)
+        | Op::Extract(_)
+        | Op::Compose
+        | Op::Splat => 0,
         op if op.is_read() => TEXEL,
         _ => 1,
     };

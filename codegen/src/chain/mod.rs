@@ -31,6 +31,8 @@ mod memory;
 mod spec;
 
 use crate::kernel::{Kernel, deep, read_source};
+use crate::overridden::{self, Overridable, reads_override};
+use crate::spec::ShaderSpec;
 use std::path::Path;
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Errors, File};
@@ -132,6 +134,17 @@ impl Chain {
         Kernel::options_of_chain(&self.files, &self.name).options()
     }
 
+    /// Returns whether an option can be overridden, the other options at their defaults.
+    ///
+    /// # Errors
+    ///
+    /// All errors of the chain without settings.
+    pub fn overridable(&self, option: &str) -> Result<Overridable, Errors> {
+        let compiled = self.compile(&ShaderSpec::new().override_options([option]).into());
+        let reads = |compiled: CompiledChain| compiled.kernels.values().any(|kernel| reads_override(&kernel.graph));
+        Overridable::from_outcome(compiled.map(reads))
+    }
+
     /// Reads the passes of the chain, and compiles their kernels. Kernels that read pictures at single places can compute them in
     /// place ([`ChainSpec::fuse`]): that of a fused picture is the value before it is stored, so formats of few bits round less.
     ///
@@ -139,10 +152,16 @@ impl Chain {
     ///
     /// Every statement that no chain has; all errors of the passes.
     pub fn compile(&self, spec: &ChainSpec) -> Result<CompiledChain, Errors> {
-        let options = self.option_values(&spec.shader.settings.options)?;
-        let chain = deep(|| front::read_chain(&self.files, &self.name, &options))?;
+        let texts = spec.shader.settings.option_texts();
+        let options = self.option_values(&texts)?;
+        let read = |options: &OptionValues| deep(|| front::read_chain(&self.files, &self.name, options));
+        let chain = read(&options).map_err(|errors| {
+            overridden::blame_overrides(&texts, &options, errors, &|texts| {
+                read(&self.option_values(&texts)?).map(drop)
+            })
+        })?;
         let mut compiled = compiler::compile_passes(&self.files, chain, &options, spec)?;
-        compiled.changed = self.changed_options(&spec.shader.settings.options)?;
+        compiled.changed = self.changed_options(&texts)?;
         Ok(compiled)
     }
 

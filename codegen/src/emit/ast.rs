@@ -322,7 +322,7 @@ impl Expr {
         self.visit(&mut |expr| {
             let free = matches!(
                 expr.op,
-                Op::Var(_) | Op::Swizzle(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_))
+                Op::Var(_) | Op::Swizzle(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Override(_))
             );
             count += usize::from(!free);
         });

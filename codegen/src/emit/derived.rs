@@ -28,6 +28,8 @@ pub enum Derived {
     Block(u32),
     /// OpenGL's combination of a texture and one of several samplers.
     Combined(Combined),
+    /// WGSL's variable that holds the value of an override.
+    Held(u32),
     /// A function of the host.
     Host(HostFunction),
 }

@@ -103,7 +103,7 @@ impl<'g> Walk<'g> {
     /// Returns the component that component `k` of an expression renames, if it needs no operation.
     fn renamed_component(&self, value: &Expr, k: u32, changes: &[bool]) -> Option<Renamed> {
         match &value.op {
-            Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_)) => Some(Renamed::Constant),
+            Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Override(_)) => Some(Renamed::Constant),
             Op::Var(var) if !value.ty.is_array() && !changes[var.0 as usize] => {
                 let slot = self.slots[var.0 as usize].0 + k;
                 Some(self.renames[slot as usize].unwrap_or(Renamed::As(slot)))

@@ -3,12 +3,12 @@
 use super::layout::value_type;
 use super::print::GENERATOR;
 use super::refusal::Refusal;
-use super::resources::{BoundTexture, Resources};
+use super::resources::{BoundOverride, BoundTexture, Resources};
 use crate::compiled::Compiled;
 use straightline_evaluator::ir::{Element, Field, Scalar, Texture, TextureKind};
 use straightline_manifest::{
-    Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, REGION_SIZE, SCHEMA,
-    SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
+    Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Override, OverrideType,
+    REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
 };
 
 impl Resources {
@@ -121,6 +121,11 @@ impl Resources {
             features: self.device_features(),
             varyings: self.manifest_varyings().collect(),
             bindings,
+            overrides: self
+                .overrides
+                .iter()
+                .map(|(_, bound)| manifest_override(bound))
+                .collect(),
             language_bindings: self.language_bindings()?,
             outputs: outputs.collect(),
             options: compiled.options.spelled(),
@@ -143,6 +148,23 @@ fn uniform_field(field: &Field) -> UniformField {
         default: None,
         part: None,
         frame_size: false,
+    }
+}
+
+fn manifest_override(bound: &BoundOverride) -> Override {
+    let of = &bound.of;
+    Override {
+        name: of.name.clone(),
+        id: of.id,
+        define: bound.define.clone(),
+        ty: match of.ty.scalar_kind() {
+            Some(Scalar::I32) => OverrideType::I32,
+            Some(Scalar::U32) => OverrideType::U32,
+            Some(Scalar::Bool) => OverrideType::Bool,
+            _ => OverrideType::F32,
+        },
+        default: of.default,
+        range: of.range,
     }
 }
 

@@ -278,13 +278,22 @@ fn emit_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, 
                 text.into_bytes()
             }
             Target::Spirv => {
-                let words = match tree.has_exact() {
+                let words = match tree.has_exact() || !resources.overrides.is_empty() {
                     true => shader.validated_module(&counts, true)?.to_spirv(&resources)?,
                     false => module.to_spirv(&resources)?,
                 };
                 words.iter().flat_map(|word| word.to_le_bytes()).collect()
             }
             Target::Hlsl => shader.print_hlsl(&counts)?.into_bytes(),
+            Target::Msl if let Some((_, bound)) = resources.overrides.first() => {
+                let what = format!(
+                    "`{}` overrides `{}`, and msl has its options as constants",
+                    compiled.kernel, bound.of.name
+                );
+                let help = "set it for this text, or let it be a uniform: `--set OPTION=uniform`; wgpu makes pipelines of the WGSL on Metal \
+                            too";
+                return Err(Refusal::new(Code::NotInTarget, what).help(help));
+            }
             Target::Msl if compiled.transport == Some(Transport::Derivatives) => {
                 let what = format!(
                     "`{}` sends messages by fine derivatives, which msl does not have",

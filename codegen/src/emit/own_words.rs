@@ -15,6 +15,9 @@ pub const OF_OUTPUT: &str = "output.";
 /// Name of the structure of several outputs.
 pub const OUTPUTS: &str = "Outputs";
 
+/// Prefix of the macro that sets an override: `OVERRIDE_TAU`.
+pub const DEFINE: &str = "OVERRIDE_";
+
 /// Names used by the text around a kernel's body.
 pub const OWN: [&str; 11] = [
     UNIFORMS,

@@ -4,7 +4,7 @@ use super::EmitOptions;
 use super::derived::{self, Combined, Derived, HostFunction};
 use super::layout::{layout_uniforms, value_type};
 use super::outputs::BoundOutput;
-use super::own_words::{OF_OUTPUT, OUTPUT, OUTPUTS, RESOLUTION, SAMPLER, UNIFORMS};
+use super::own_words::{DEFINE, OF_OUTPUT, OUTPUT, OUTPUTS, RESOLUTION, SAMPLER, UNIFORMS};
 use super::places::{Named, Places};
 use super::refusal::Refusal;
 use super::words::free_name;
@@ -13,8 +13,8 @@ use crate::spec::Target;
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{
-    Access, Buffer, Element, Invocation, Memory, NodeId, Op, OutputTarget as Picture, Sampler, Scalar, SharedArray,
-    Structure, Texture, Type, Uniform, Varying,
+    Access, Buffer, Element, Graph, Invocation, Memory, NodeId, Op, OutputTarget as Picture, Override, Sampler, Scalar,
+    SharedArray, Structure, Texture, Type, Uniform, Varying,
 };
 use straightline_evaluator::passes::layers_read;
 use straightline_manifest::{Precision, REGION, Stage, UniformField};
@@ -32,6 +32,15 @@ pub struct BoundTexture {
     pub filtered: bool,
     /// `true` if a sampler compares it.
     pub compared: bool,
+}
+
+/// An option that the host sets when it creates the pipeline.
+#[derive(Clone, Debug)]
+pub struct BoundOverride {
+    /// The option, under its name in the text.
+    pub of: Override,
+    /// Macro by which a host sets it in GLSL for OpenGL, HLSL and functions in GLSL. The same in every language.
+    pub define: String,
 }
 
 /// Host-facing names of resources that the kernel does not name: the defaults, unless the kernel uses them.
@@ -81,6 +90,10 @@ pub struct Resources {
     pub used_samplers: Vec<(u32, u32)>,
     /// Uniforms in use.
     pub uniforms: Vec<Uniform>,
+    /// Overrides in use, with their indices.
+    pub overrides: Vec<(u32, BoundOverride)>,
+    /// `true` if overrides are variables with their defaults, for translation to languages that naga writes.
+    pub holds_defaults: bool,
     /// Fields of the uniform buffer, and its size.
     pub fields: Vec<UniformField>,
     /// Size of the uniform buffer in bytes.
@@ -240,6 +253,18 @@ impl Resources {
             false => None,
         };
         uniforms.extend(&size_field);
+        let mut overrides: Vec<(u32, BoundOverride)> = Vec::new();
+        for (k, of) in (0..).zip(&graph.overrides) {
+            if !ops.contains(&&Op::Override(k)) {
+                continue;
+            }
+            let taken = |name: &str| {
+                let is_macro = overrides.iter().any(|(_, other)| other.define == name);
+                is_macro || input_names(graph).any(|other| other == name)
+            };
+            let define = free_name(kernel, &format!("{DEFINE}{}", of.name.to_uppercase()), taken)?;
+            overrides.push((k, BoundOverride { of: of.clone(), define }));
+        }
         let uses = |k: u32| ops.iter().any(|op| op.memory() == Some(Memory::Shared(k)));
         let used_shared: Vec<u32> = (0..graph.shared.len() as u32).filter(|k| uses(*k)).collect();
         let entry = super::entry::resolve_entry_name(&compiled.kernel, options)?;
@@ -347,6 +372,8 @@ impl Resources {
             size_uniform: size_field.as_ref().map(|_| graph.uniforms.len() as u32),
             varying_names: graph.varyings.iter().map(|v| v.name.clone()).collect(),
             uniforms: uniforms.into_iter().cloned().collect(),
+            overrides,
+            holds_defaults: false,
             read,
             host,
             combined,
@@ -443,6 +470,12 @@ impl Resources {
     /// Returns the name of a uniform by its index in the graph.
     pub fn uniform_name(&self, index: u32) -> &str {
         &self.uniform_names[index as usize]
+    }
+
+    /// Returns an override in use by its index in the graph.
+    pub fn bound_override(&self, index: u32) -> &BoundOverride {
+        let found = self.overrides.iter().find(|(k, _)| *k == index);
+        &found.expect("an override of the schedule").1
     }
 
     /// Returns the name of a varying by its index in the graph.
@@ -563,31 +596,30 @@ impl Resources {
 
 /// Returns the uniform that holds the frame's size, under a name that no input or output of the kernel has.
 fn size_field(compiled: &Compiled) -> Result<Uniform, Refusal> {
-    let graph = &compiled.graph;
-    let is_used = |name: &str| {
-        let mut names = graph
-            .textures
-            .iter()
-            .map(|texture| &texture.name)
-            .chain(graph.buffers.iter().map(|buffer| &buffer.name))
-            .chain(graph.samplers.iter().map(|sampler| &sampler.name))
-            .chain(graph.uniforms.iter().map(|uniform| &uniform.name))
-            .chain(
-                graph
-                    .uniforms
-                    .iter()
-                    .filter_map(|uniform| Some(&uniform.part.as_ref()?.of)),
-            )
-            .chain(graph.varyings.iter().map(|varying| &varying.name))
-            .chain(graph.written_targets().map(|target| &target.name));
-        names.any(|other| other == name)
-    };
+    let is_used = |name: &str| input_names(&compiled.graph).any(|other| other == name);
     Ok(Uniform {
         name: free_name(&compiled.kernel, RESOLUTION, is_used)?,
         ty: Type::value(Scalar::U32, 2),
         default: None,
         part: None,
     })
+}
+
+/// Returns the names of all inputs and outputs of a kernel.
+fn input_names(graph: &Graph) -> impl Iterator<Item = &String> {
+    let wholes = graph
+        .uniforms
+        .iter()
+        .filter_map(|uniform| Some(&uniform.part.as_ref()?.of));
+    let textures = graph.textures.iter().map(|texture| &texture.name);
+    textures
+        .chain(graph.buffers.iter().map(|buffer| &buffer.name))
+        .chain(graph.samplers.iter().map(|sampler| &sampler.name))
+        .chain(graph.uniforms.iter().map(|uniform| &uniform.name))
+        .chain(wholes)
+        .chain(graph.overrides.iter().map(|of| &of.name))
+        .chain(graph.varyings.iter().map(|varying| &varying.name))
+        .chain(graph.written_targets().map(|target| &target.name))
 }
 
 /// Returns the HLSL register class of a buffer.

@@ -19,8 +19,8 @@ pub fn kernel_tree(compiled: &Compiled, precision: Precision) -> ast::Module<'_>
     module
 }
 
-/// Returns the tree of a shader with comments, before a language's own rules, and its counts. A kernel in half precision is
-/// counted in full precision.
+/// Returns the tree of a shader with comments, before a language's own rules, and its counts. A kernel in half
+/// precision is counted in full precision.
 pub fn shader_tree<'g>(compiled: &'g Compiled, resources: &Resources) -> (ast::Module<'g>, Counts) {
     let mut module = kernel_tree(compiled, resources.options.precision);
     let mut counts = compiled.counts.clone();
@@ -69,14 +69,16 @@ impl Wgsl {
 
 impl Shader<'_, '_> {
     /// Returns the whole shader, parsed and validated by naga; a function with an entry point that only calls it. With
-    /// `marks`, every exact value is marked ([`legalise::legalise_wgsl`]).
+    /// `marks`, every exact value is marked ([`legalise::legalise_wgsl`]), and overrides are variables with their
+    /// defaults.
     pub fn validated_module(&self, counts: &Counts, marks: bool) -> Result<translate::Module, Refusal> {
         let kernel = &self.compiled.kernel;
         if !self.resources.options.is_function() && !marks {
             return translate::Module::parse_wgsl(kernel, &self.own_wgsl(counts));
         }
         let whole = self.resources.options.clone().form(Form::Entry);
-        let whole = Resources::from_compiled(self.compiled, &whole)?;
+        let mut whole = Resources::from_compiled(self.compiled, &whole)?;
+        whole.holds_defaults = marks;
         // Entry points return whole texels, and functions the kernel's values.
         let (tree, _) = shader_tree(self.compiled, &whole);
         let wgsl = Wgsl::new(&tree, &whole, marks)?.with_header(&print::header_lines(self.compiled, counts, &whole));

@@ -7,7 +7,7 @@ use super::derived::Derived;
 use super::own_words::{OF_GROUPS, OF_REGIONS, OUTPUT, OWN, UNIFORMS, VARIABLE};
 use super::print::LOOSE_REGION;
 use super::refusal::Refusal;
-use super::resources::Resources;
+use super::resources::{BoundOverride, Resources};
 use super::words::{Reserved, free_name, is_plain};
 use crate::spec::Target;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,6 +35,10 @@ impl Resources {
             }
             all.push((Derived::OutputSize, format!("size_of_{}", self.sized_output())));
         }
+        if target == Target::Wgsl {
+            let held = |(k, bound): &(u32, BoundOverride)| (Derived::Held(*k), format!("{}_value", bound.of.name));
+            all.extend(self.overrides.iter().map(held));
+        }
         if target.is_glsl() {
             let block = |k: u32| (Derived::Block(k), format!("{}_buffer", self.buffer(k).name));
             all.extend(self.read_buffers.iter().map(|(k, _)| block(*k)));
@@ -60,6 +64,7 @@ impl Resources {
     fn own_names(&self, target: Target) -> BTreeSet<String> {
         let mut all: BTreeSet<String> = OWN.map(str::to_owned).into();
         all.extend([self.entry.clone(), self.outputs_type()]);
+        all.extend(self.overrides.iter().map(|(_, bound)| bound.define.clone()));
         if self.options.has_place() {
             all.extend(OF_REGIONS.map(str::to_owned));
         }
@@ -82,6 +87,7 @@ impl Resources {
         all.extend(self.bound_names().map(str::to_owned));
         all.extend(self.read_structures().iter().map(|structure| structure.name.clone()));
         all.extend(self.derived.values().cloned());
+        all.extend(self.overrides.iter().map(|(_, bound)| bound.of.name.clone()));
         if self.has_loose_uniforms(target) {
             all.extend(self.uniforms.iter().map(|uniform| uniform.name.clone()));
         }
@@ -106,6 +112,7 @@ impl Resources {
             kernel: &self.kernel,
             reserved: &reserved,
             taken: self.own_names(target),
+            macros: self.overrides.iter().map(|(_, bound)| bound.define.clone()).collect(),
         };
         let loose = self.has_loose_uniforms(target);
         let structures = self.read_structures();
@@ -117,6 +124,7 @@ impl Resources {
         all.extend(self.used_shared.iter().map(|k| Given::Shared(*k)));
         all.extend((0..self.varyings.len()).map(Given::Varying));
         all.extend((0..self.outputs.len()).map(Given::Output));
+        all.extend((0..self.overrides.len()).map(Given::Override));
         if loose {
             all.extend((0..self.uniforms.len()).map(Given::Uniform));
         }
@@ -149,6 +157,7 @@ impl Resources {
                 Given::Shared(k) => spelled.shared[k as usize].name.clone_from(name),
                 Given::Varying(k) => spelled.varyings[k].name.clone_from(name),
                 Given::Output(k) => spelled.outputs[k].name.clone_from(name),
+                Given::Override(k) => spelled.overrides[k].1.of.name.clone_from(name),
                 Given::Uniform(k) => {
                     uniforms.insert(&self.uniforms[k].name, name.clone());
                 }
@@ -202,6 +211,7 @@ impl Resources {
             Given::Shared(k) => &self.shared[k as usize].name,
             Given::Varying(k) => &self.varyings[k].name,
             Given::Output(k) => &self.outputs[k].name,
+            Given::Override(k) => &self.overrides[k].1.of.name,
             Given::Uniform(k) => &self.uniforms[k].name,
             Given::Structure(k) => &structures[k].name,
         }
@@ -217,6 +227,7 @@ enum Given {
     Shared(u32),
     Varying(usize),
     Output(usize),
+    Override(usize),
     Uniform(usize),
     Structure(usize),
 }
@@ -234,6 +245,8 @@ struct Scope<'r> {
     kernel: &'r str,
     reserved: &'r Reserved,
     taken: BTreeSet<String>,
+    /// Macros, which replace members of structures too.
+    macros: BTreeSet<String>,
 }
 
 impl Scope<'_> {
@@ -280,7 +293,9 @@ impl Scope<'_> {
                 .filter(is_own)
                 .map(|name| (*name).to_owned())
                 .chain(seen.iter().cloned())
+                .chain(self.macros.iter().cloned())
                 .collect(),
+            macros: BTreeSet::new(),
         };
         scope.give_names(names.into_iter())
     }

@@ -1,12 +1,16 @@
 //! Validation by naga, and its output languages.
 
+use super::derived::Derived;
 use super::refusal::Refusal;
 use super::resources::Resources;
+use super::spirv::SpecConstant;
+use crate::spec::Target;
 use naga::back::{msl, spv};
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use std::time::Duration;
 use straightline_evaluator::diagnostic::Code;
+use straightline_evaluator::ir::Type;
 use straightline_manifest::Stage;
 
 /// Returns the time limit for naga to parse a number of statements: quadratic, 5 s for 10 000 on a slow machine.
@@ -67,7 +71,16 @@ impl Module {
         let words = spv::write_vec(&self.module, &self.info, &options, Some(&pipeline))
             .map_err(|e| self.translation_error("spirv", e))?;
         let words = super::spirv::join_blocks(&super::spirv::forbid_contraction(&words));
-        Ok(super::spirv::inline_functions(&words))
+        let words = super::spirv::inline_functions(&words);
+        let named = resources.spelled_for(Target::Wgsl)?;
+        let held = named.overrides.iter().map(|(k, bound)| SpecConstant {
+            variable: named.derived_name(Derived::Held(*k)),
+            name: &bound.of.name,
+            id: bound.of.id,
+            default: bound.of.default_bits(),
+            is_bool: bound.of.ty == Type::BOOL,
+        });
+        Ok(super::spirv::add_spec_constants(&words, &held.collect::<Vec<_>>()))
     }
 
     /// Translates to Metal; returns the text and the name of the entry point. Textures, buffers and samplers are numbered

@@ -277,7 +277,7 @@ impl Walk<'_> {
                 let sub = Op::Binary(straightline_evaluator::ir::BinaryOp::Sub);
                 apply_values(&sub, node.ty, &[&high, &low], node.ty)
             }
-            Op::Uniform(_) => Value::unknown(node.ty, Causes::UNIFORMS),
+            Op::Uniform(_) | Op::Override(_) => Value::unknown(node.ty, Causes::UNIFORMS),
             Op::Varying(_) => {
                 let cells = std::array::from_fn(|probe| {
                     std::array::from_fn(|component| assumed_varying(probe, lane, component).to_bits())

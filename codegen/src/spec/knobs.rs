@@ -16,10 +16,18 @@ knobs! {
     /// Settings of a shader's computation: options of the kernel, and policies of its evaluation.
     Settings in settings {
         /// Value of an option of the kernel, in any spelling that its declaration accepts; other options keep their
-        /// defaults. For a number, `uniform` lets the host set the value at run time.
+        /// defaults. For a number, `uniform` lets the host set the value at run time. `override` is as
+        /// `--override OPTION`.
         options: Vec<OptionText> = Vec::new(), "set" ["OPTION=VALUE"],
             set(option: &str, value: impl Display) |options| options.push((option.to_owned(), value.to_string())),
             example ("pattern", "latin16");
+        /// Options of the kernel that the host may set when it creates the pipeline, separated by commas. Their values
+        /// here are then defaults. For numbers and booleans that decide nothing in the text: `straightline list KERNEL`.
+        overrides: BTreeSet<String> = BTreeSet::new(), "override" ["OPTIONS"],
+            override_options(names: impl IntoIterator<Item = impl Into<String>>) |all| {
+                all.extend(names.into_iter().map(Into::into));
+            },
+            example (["tau"]);
         /// Unroll policy of all loops: `full` unrolls them, `none` leaves them in the shader, and a factor such as `4`
         /// leaves loops with four iterations in a row.
         unroll: Unroll = Unroll::Full, "unroll" ["POLICY"],

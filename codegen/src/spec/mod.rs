@@ -34,6 +34,7 @@ pub use target::Target;
 pub use texels::Texels;
 pub use value::Arity;
 
+use straightline_evaluator::eval::override_text;
 use straightline_evaluator::is_close;
 use straightline_evaluator::limits::Limits;
 use straightline_evaluator::policy::Policy;
@@ -156,6 +157,22 @@ impl Settings {
     pub fn set_all(mut self, options: impl IntoIterator<Item = OptionText>) -> Self {
         self.options.extend(options);
         self
+    }
+
+    /// Returns the options, with those to be overridden spelled as such.
+    pub fn option_texts(&self) -> Vec<OptionText> {
+        self.with_overrides(self.options.clone())
+    }
+
+    /// Returns options with those to be overridden spelled as such.
+    pub(crate) fn with_overrides(&self, mut options: Vec<OptionText>) -> Vec<OptionText> {
+        for name in &self.overrides {
+            match options.iter_mut().find(|(known, _)| known == name) {
+                Some((_, value)) => *value = override_text(Some(value)),
+                None => options.push((name.clone(), override_text(None))),
+            }
+        }
+        options
     }
 
     /// Returns the limits on time and memory for compiling and emitting.

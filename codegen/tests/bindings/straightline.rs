@@ -407,6 +407,7 @@ pub mod all {
                     ],
                 ),
                 region: None,
+                overrides: Borrowed(&[]),
                 varyings: Borrowed(&[]),
                 outputs: Borrowed(
                     &[
@@ -912,6 +913,7 @@ pub mod tile {
                         ],
                     ),
                 }),
+                overrides: Borrowed(&[]),
                 varyings: Borrowed(&[]),
                 outputs: Borrowed(
                     &[
@@ -1507,6 +1509,7 @@ pub mod graded {
                     ],
                 ),
                 region: None,
+                overrides: Borrowed(&[]),
                 varyings: Borrowed(&[]),
                 outputs: Borrowed(
                     &[
@@ -1753,6 +1756,7 @@ pub mod drawn {
                     ],
                 ),
                 region: None,
+                overrides: Borrowed(&[]),
                 varyings: Borrowed(
                     &[
                         VaryingPlan {
@@ -1932,6 +1936,7 @@ pub mod several {
                 ),
                 uniforms: Borrowed(&[]),
                 region: None,
+                overrides: Borrowed(&[]),
                 varyings: Borrowed(&[]),
                 outputs: Borrowed(
                     &[
@@ -2193,6 +2198,7 @@ pub mod waiting {
                     ],
                 ),
                 region: None,
+                overrides: Borrowed(&[]),
                 varyings: Borrowed(&[]),
                 outputs: Borrowed(
                     &[
@@ -2200,6 +2206,222 @@ pub mod waiting {
                             name: Borrowed("destination"),
                             place: Some((0, 1)),
                             format: Format::Rgba16Float,
+                        },
+                    ],
+                ),
+            },
+        )
+    };
+}
+/// Fades a picture.
+///
+/// Generated for `inverted` override(false), `strength` override(0.75); loops unrolled: `full`.
+#[allow(
+    dead_code,
+    non_camel_case_types,
+    non_snake_case,
+    clippy::trivially_copy_pass_by_ref
+)]
+pub mod faded {
+    use straightline_runtime::{Error, Resource, wgpu};
+    /// The shader.
+    pub const WGSL: &str = include_str!("faded.wgsl");
+    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    pub const MANIFEST: &str = include_str!("faded.json");
+    /// Name of the entry point.
+    pub const ENTRY_POINT: &str = "faded";
+    /// Invocations in a workgroup.
+    pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
+    /// Layout of bind group 0, for a custom pipeline.
+    pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
+        label: Some("faded"),
+        entries: &[
+            wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float {
+                        filterable: false,
+                    },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                count: None,
+            },
+            wgpu::BindGroupLayoutEntry {
+                binding: 1,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::StorageTexture {
+                    access: wgpu::StorageTextureAccess::WriteOnly,
+                    format: wgpu::TextureFormat::Rgba32Float,
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                },
+                count: None,
+            },
+        ],
+    };
+    /// Inputs of the shader.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Inputs<'a> {
+        /// A 2-D texture of the target's size, of a float format with at least 4 components.
+        pub color: &'a wgpu::TextureView,
+    }
+    /// Options that are set when the pipeline is created.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Overrides {
+        /// `strength` of the kernel, 0 to 1; 0.75 by default.
+        pub strength: f32,
+        /// `inverted` of the kernel; false by default.
+        pub inverted: bool,
+    }
+    impl Default for Overrides {
+        fn default() -> Self {
+            Overrides {
+                strength: 0.75,
+                inverted: false,
+            }
+        }
+    }
+    impl Overrides {
+        /// `options` with these values. Values out of range are refused when the pipeline is created.
+        #[must_use]
+        pub fn apply(
+            &self,
+            options: straightline_runtime::PassOptions,
+        ) -> straightline_runtime::PassOptions {
+            options
+                .override_option("strength", self.strength)
+                .override_option("inverted", self.inverted)
+        }
+    }
+    /// The shader on a device: create it once, and bind it to its inputs and outputs.
+    #[derive(Debug)]
+    pub struct Pass(straightline_runtime::Pass);
+    impl Pass {
+        /// Compiles the shader.
+        ///
+        /// # Errors
+        ///
+        /// If the device cannot run it or is lost.
+        pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
+            Self::with_options(device, &straightline_runtime::PassOptions::default())
+        }
+        /// Compiles the shader with options, for example for a target of another format.
+        ///
+        /// # Errors
+        ///
+        /// Errors of `new`, and options that the shader does not have.
+        pub fn with_options(
+            device: &wgpu::Device,
+            options: &straightline_runtime::PassOptions,
+        ) -> Result<Self, Error> {
+            straightline_runtime::Pass::from_shader(device, &SHADER, options).map(Self)
+        }
+        /// Binds the shader: from `inputs` to the target.
+        ///
+        /// # Errors
+        ///
+        /// If an input or the target does not fit, naming it.
+        pub fn bind(
+            &self,
+            inputs: &Inputs<'_>,
+            target: &wgpu::TextureView,
+        ) -> Result<Bound, Error> {
+            let inputs: [(&str, Resource<'_>); 1] = [
+                ("color", Resource::from(inputs.color)),
+            ];
+            self.0
+                .bind_with(
+                    &inputs,
+                    target,
+                    &straightline_runtime::BindOptions::default(),
+                )
+                .map(Bound)
+        }
+        /// The underlying pass, for queries about its bindings.
+        #[must_use]
+        pub fn inner(&self) -> &straightline_runtime::Pass {
+            &self.0
+        }
+    }
+    /// The shader with its inputs and outputs: encode it every frame.
+    #[derive(Debug)]
+    pub struct Bound(straightline_runtime::Bound);
+    impl Bound {
+        /// Records the shader.
+        pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+            self.0.encode(encoder);
+        }
+        /// The underlying binding, for timing.
+        #[must_use]
+        pub fn inner(&self) -> &straightline_runtime::Bound {
+            &self.0
+        }
+    }
+    /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
+    pub static SHADER: straightline_runtime::Shader<'static> = {
+        use straightline_runtime::Shader;
+        use straightline_runtime::plan::{
+            Borrowed, Dimension, Extent, Format, InputKind, InputPlan, OutputPlan,
+            OverridePlan, OverrideType, Plan, SampleType, StagePlan, TexturePlan,
+        };
+        Shader::generated(
+            WGSL,
+            0xf854_8be7_7e5a_50d1,
+            straightline_runtime::loops_end!(),
+            Plan {
+                kernel: Borrowed("faded"),
+                entry_point: Borrowed("faded"),
+                stage: StagePlan::Compute {
+                    workgroup: WORKGROUP_SIZE,
+                    fills_memory: false,
+                },
+                block: [1, 1],
+                features: Borrowed(&[]),
+                inputs: Borrowed(
+                    &[
+                        InputPlan {
+                            name: Borrowed("color"),
+                            group: 0,
+                            binding: 0,
+                            kind: InputKind::Texture(TexturePlan {
+                                dimension: Dimension::D2,
+                                sample_type: SampleType::Unfilterable,
+                                components: 4,
+                                layers: 1,
+                                samples: 1,
+                                extent: Extent::Output,
+                            }),
+                        },
+                    ],
+                ),
+                uniforms: Borrowed(&[]),
+                region: None,
+                overrides: Borrowed(
+                    &[
+                        OverridePlan {
+                            name: Borrowed("strength"),
+                            id: 0,
+                            ty: OverrideType::F32,
+                            default: 0.75f64,
+                            range: Some([0f64, 1f64]),
+                        },
+                        OverridePlan {
+                            name: Borrowed("inverted"),
+                            id: 1,
+                            ty: OverrideType::Bool,
+                            default: 0f64,
+                            range: None,
+                        },
+                    ],
+                ),
+                varyings: Borrowed(&[]),
+                outputs: Borrowed(
+                    &[
+                        OutputPlan {
+                            name: Borrowed("destination"),
+                            place: Some((0, 1)),
+                            format: Format::Rgba32Float,
                         },
                     ],
                 ),
@@ -2485,6 +2707,7 @@ pub mod sraa {
                     ],
                 ),
                 region: None,
+                overrides: Borrowed(&[]),
                 varyings: Borrowed(&[]),
                 outputs: Borrowed(
                     &[
@@ -2656,6 +2879,7 @@ pub mod glow {
                             ],
                         ),
                         region: None,
+                        overrides: Borrowed(&[]),
                         varyings: Borrowed(&[]),
                         outputs: Borrowed(
                             &[
@@ -2749,6 +2973,7 @@ pub mod glow {
                         ),
                         uniforms: Borrowed(&[]),
                         region: None,
+                        overrides: Borrowed(&[]),
                         varyings: Borrowed(&[]),
                         outputs: Borrowed(
                             &[

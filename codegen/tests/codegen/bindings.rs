@@ -34,6 +34,12 @@ impl<'a> From<&'a wgpu::Buffer> for Resource<'a> { fn from(_: &'a wgpu::Buffer) 
 impl<'a> From<&'a wgpu::Sampler> for Resource<'a> { fn from(_: &'a wgpu::Sampler) -> Self { Resource(&()) } }
 impl<'a> From<&'a wgpu::TextureView> for Resource<'a> { fn from(_: &'a wgpu::TextureView) -> Self { Resource(&()) } }
 #[derive(Default)] pub struct PassOptions;
+pub struct OverrideValue;
+impl From<f32> for OverrideValue { fn from(_: f32) -> Self { OverrideValue } }
+impl From<i32> for OverrideValue { fn from(_: i32) -> Self { OverrideValue } }
+impl From<u32> for OverrideValue { fn from(_: u32) -> Self { OverrideValue } }
+impl From<bool> for OverrideValue { fn from(_: bool) -> Self { OverrideValue } }
+impl PassOptions { pub fn override_option(self, _: &str, _: impl Into<OverrideValue>) -> Self { self } }
 #[derive(Debug)] pub struct Pass;
 impl Pass {
     pub fn from_shader(_: &wgpu::Device, _: &Shader<'_>, _: &PassOptions) -> Result<Pass, Error> { Ok(Pass) }
@@ -145,7 +151,11 @@ fn runtime(folder: &Path) {
 
 /// Has rustc compile the bindings of a kernel `k`, unless its text is refused before.
 fn compiles(folder: &Path, file: &str, text: &str) -> Result<(), String> {
-    let compiled = Kernel::from_text("kernel.rs", text, "k").compile(&Settings::default());
+    compiles_with(folder, file, text, &Settings::default())
+}
+
+fn compiles_with(folder: &Path, file: &str, text: &str, settings: &Settings) -> Result<(), String> {
+    let compiled = Kernel::from_text("kernel.rs", text, "k").compile(settings);
     let compiled = compiled.map_err(|e| e.to_string())?;
     // A kernel with interpolated values is a fragment shader.
     let stage = match compiled.graph.varyings.is_empty() {
@@ -213,6 +223,38 @@ fn bindings_compile_whatever_is_read() {
     for (k, text) in reads.into_iter().enumerate() {
         compiles(&folder, &format!("bindings_{k}.rs"), text).unwrap_or_else(|e| panic!("{e}"));
     }
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+#[test]
+fn bindings_compile_with_overrides_of_every_type() {
+    let folder = folder("overrides");
+    runtime(&folder);
+    let text = "
+        options! {
+            /// Options.
+            pub struct Cfg {
+                /// One.
+                pub tau: f32 [-1.0..=1.0e9] = -0.5,
+                /// Two.
+                pub dyn_: i32 = -2147483648,
+                /// Three.
+                pub Default: u32 = 4294967295,
+                /// Four.
+                pub on: bool = true,
+            }
+        }
+        pub fn k(cfg: &Cfg, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+            let gain = if cfg.on { cfg.tau } else { cfg.dyn_ as f32 };
+            color.load(pixel) * gain * cfg.Default as f32
+        }";
+    let all = Settings::default().override_options(["tau", "dyn-", "Default", "on"]);
+    compiles_with(&folder, "bindings.rs", text, &all).unwrap_or_else(|e| panic!("{e}"));
+    let written = std::fs::read_to_string(folder.join("bindings.rs")).expect("written");
+    assert!(
+        written.contains("tau: -0.5") && written.contains("range: Some([-1f64, 1000000000f64])"),
+        "{written}"
+    );
     std::fs::remove_dir_all(&folder).expect("removed");
 }
 
@@ -312,6 +354,10 @@ fn write(out: &Path) {
         .file_with(kernel("several"), |k| k.stage(Stage::Fragment))
         .file(kernel("waiting"))
         .file_with(kernel("glow"), |k| k.format(Format::Rgba32Float))
+        .file_with(kernel("faded"), |k| {
+            let k = k.format(Format::Rgba32Float).set("strength", 0.75);
+            k.override_options(["strength", "inverted"])
+        })
         .kernel("sraa", |k| {
             let k = k.set("pattern", "latin4").set("metric", "depth").set("tau", "uniform");
             k.unroll(Unroll::None).format(Format::Rgba32Float)

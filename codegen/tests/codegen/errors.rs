@@ -1,5 +1,5 @@
 //! Every message of the generator, as a user sees it: `tests/errors/NAME.rs` is refused with `NAME.txt`. Lines
-//! `// set: OPTION=VALUE`, `// unroll: POLICY`, `// unroll-loop: LOOP=POLICY`, `// budget: N`, `// function: NAME`,
+//! `// set: OPTION=VALUE`, `// override: OPTIONS`, `// unroll: POLICY`, `// unroll-loop: LOOP=POLICY`, `// budget: N`, `// function: NAME`,
 //! `// fuse: PICTURES`, `// stage: fragment`, `// target: LANGUAGE`, `// binding: NAME=N`, `// register: NAME=REGISTER`, `// entry: NAME`, `// form: FORM` and
 //! `// origin: ORIGIN` at the top of a case say how it is compiled and emitted.
 //!
@@ -36,6 +36,7 @@ fn message(path: &Path) -> Result<String, String> {
             "set" => settings
                 .options
                 .push(pair().map(|(a, b)| (a.to_owned(), b.to_owned()))?),
+            "override" => settings = settings.override_options(value.split(',')),
             "unroll" => settings.unroll = value.parse()?,
             "unroll-loop" => {
                 let (path, policy) = pair()?;

@@ -108,7 +108,7 @@ fn values_that_are_none_are_refused_by_name() {
         let mut spec = ShaderSpec::new();
         let refused = knob.set(&mut spec, &["no such \u{1b}value"]);
         // Any word is a name.
-        if ["entry", "reserve", "half"].contains(&knob.name) {
+        if ["entry", "reserve", "half", "override"].contains(&knob.name) {
             assert_eq!(refused, Ok(()));
             continue;
         }

@@ -19,6 +19,7 @@ mod knobs;
 mod limits;
 mod one_mistake;
 mod option_values;
+mod overrides;
 mod places;
 mod syn_variants;
 mod testing;

@@ -124,6 +124,7 @@ codes! {
     UnknownLoop = "E0604", "unknown loop";
     SettingValue = "E0605", "a setting with a value that means nothing";
     UnfitSetting = "E0606", "a setting that this kernel cannot have";
+    CannotOverride = "E0607", "an option that cannot be overridden";
 
     VisibleLoss = "E0701", "half precision with a visible loss";
     FrameSize = "E0702", "an engine that does not give the target's size";

@@ -70,7 +70,7 @@ use straightline_kernels::{OptionText, OptionValues};
 use value::{Eval, Exit, Value};
 
 pub use loops::{BUDGET_HELP, LoopReport, name_largest_loops};
-pub use options::{Numeric, OptionInfo, OptionKind, describe_options, parse_settings};
+pub use options::{Numeric, OptionInfo, OptionKind, describe_options, override_text, parse_settings};
 
 /// An evaluated kernel, with its options resolved.
 pub struct Evaluated {

@@ -98,7 +98,13 @@ impl Evaluator<'_> {
         }
         if matches!(
             op,
-            Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Varying(_) | Op::Param(..) | Op::MakeArray
+            Op::Pixel
+                | Op::FrameSize
+                | Op::Uniform(_)
+                | Op::Override(_)
+                | Op::Varying(_)
+                | Op::Param(..)
+                | Op::MakeArray
         ) {
             return;
         }

@@ -84,6 +84,7 @@ impl Evaluator<'_> {
             || graph.shared.iter().any(|s| s.name == name)
             || graph.samplers.iter().any(|s| s.name == name)
             || graph.uniforms.iter().any(|u| u.name == name || is_whole(u))
+            || graph.overrides.iter().any(|o| o.name == name)
             || graph.varyings.iter().any(|v| v.name == name)
     }
 

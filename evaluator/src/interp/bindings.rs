@@ -35,8 +35,8 @@ struct Level {
 }
 
 impl Image {
-    /// An image of `size` texels from layers of rows, also of the slices of a volume, or the faces of a cube +X, -X, +Y, -Y, +Z,
-    /// -Z; `None` unless there is a layer and each has all its texels.
+    /// An image of `size` texels from layers of rows, also of the slices of a volume, or the faces of a cube +X, -X,
+    /// +Y, -Y, +Z, -Z; `None` unless there is a layer and each has all its texels.
     pub fn new(size: [u32; 2], layers: Vec<Vec<[f32; 4]>>) -> Option<Image> {
         let layers = layers.into_iter();
         let bits = layers.map(|layer| layer.into_iter().map(|texel| texel.map(f32::to_bits)).collect());
@@ -173,14 +173,15 @@ impl<'a> Bindings<'a> {
         self
     }
 
-    /// The elements of a buffer, each in as many components as it has; of structures all their numbers and vectors, one after the
-    /// other.
+    /// The elements of a buffer, each in as many components as it has; of structures all their numbers and vectors, one
+    /// after the other.
     pub fn buffer(mut self, name: &str, elements: &'a [[f64; 4]]) -> Self {
         self.buffers.push((name.to_owned(), elements));
         self
     }
 
-    /// The components of a uniform; a single number is for every component. One that is not named keeps its default, or 0.
+    /// The components of a uniform, or the value of an override, a boolean as 0 or 1. A single number is for every
+    /// component. One that is not named keeps its default, or 0.
     pub fn uniform(mut self, name: &str, lanes: &[f64]) -> Self {
         self.uniforms.push((name.to_owned(), lanes.to_vec()));
         self

@@ -30,6 +30,7 @@ pub struct Interpreter<'a, R: Real = f32> {
     samplers: Vec<SamplerState>,
     buffers: Vec<Vec<Cells>>,
     uniforms: Vec<Cells>,
+    overrides: Vec<Cells>,
     watches: bool,
     precision: PhantomData<R>,
 }
@@ -134,6 +135,10 @@ impl<'a, R: Real> Interpreter<'a, R> {
             let default = [uniform.default.unwrap_or(0.0)];
             cells(uniform.ty, given.unwrap_or(&default))
         });
+        let overrides = graph.overrides.iter().map(|of| {
+            let given = bindings::find_entry(&bindings.uniforms, &of.name).map(Vec::as_slice);
+            cells(of.ty, given.unwrap_or(&[of.default]))
+        });
         Ok(Interpreter {
             graph,
             schedule,
@@ -142,6 +147,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             samplers: samplers.collect(),
             buffers: buffers.collect(),
             uniforms: uniforms.collect(),
+            overrides: overrides.collect(),
             watches: false,
             precision: PhantomData,
         })
@@ -301,6 +307,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             Op::Inside => s.values[slot] = [(0..2).all(|k| pixel[k] < self.frame[k]).into(), 0, 0, 0],
             Op::FrameSize => s.values[slot] = [self.frame[0].into(), self.frame[1].into(), 0, 0],
             Op::Uniform(k) => s.values[slot] = self.uniforms[*k as usize],
+            Op::Override(k) => s.values[slot] = self.overrides[*k as usize],
             op if op.is_effect() => s.values[slot] = self.run_effect(id, s),
             op if op.is_read() || op.texture().is_some() || op.buffer().is_some() => {
                 s.values[slot] = self.eval_read(op, &node.args, s);

@@ -102,6 +102,33 @@ pub struct Uniform {
     pub part: Option<UniformPart>,
 }
 
+/// An option that a host may set when it creates the pipeline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Override {
+    /// Name in the kernel.
+    pub name: String,
+    /// Position of the option among those of the kernel, from 0, by which hosts set it.
+    pub id: u32,
+    /// `f32`, `i32`, `u32` or `bool`.
+    pub ty: Type,
+    /// Value to use unless the host sets one; of a `bool` 0 or 1.
+    pub default: f64,
+    /// Smallest and largest value that a host may set, if the kernel states them. No pass relies on them.
+    pub range: Option<[f64; 2]>,
+}
+
+impl Override {
+    /// Bits of the default.
+    pub fn default_bits(&self) -> u32 {
+        match self.ty.scalar_kind() {
+            Some(Scalar::F32) => (self.default as f32).to_bits(),
+            Some(Scalar::I32) => self.default as i32 as u32,
+            Some(Scalar::Bool) => u32::from(self.default != 0.0),
+            _ => self.default as u32,
+        }
+    }
+}
+
 /// A column of a matrix, or an element of an array of scalars or vectors, that is one parameter of the kernel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UniformPart {
@@ -183,6 +210,8 @@ pub struct Graph {
     pub samplers: Vec<Sampler>,
     /// Runtime parameters, by the index that `Op::Uniform` carries.
     pub uniforms: Vec<Uniform>,
+    /// Options that the host sets when it creates the pipeline, by the index that `Op::Override` carries.
+    pub overrides: Vec<Override>,
     /// Interpolated values, by the index that `Op::Varying` carries.
     pub varyings: Vec<Varying>,
     /// Values that the kernel computes for each pixel.

@@ -61,8 +61,8 @@ pub mod verify;
 
 pub use buffer::{Access, Buffer, Element, Field, Structure};
 pub use graph::{
-    Builder, Event, Graph, Invocation, Mark, Node, NodeId, OutputTarget, Purpose, Region, RegionId, Rules, Sampler,
-    Uniform, UniformPart, Varying,
+    Builder, Event, Graph, Invocation, Mark, Node, NodeId, OutputTarget, Override, Purpose, Region, RegionId, Rules,
+    Sampler, Uniform, UniformPart, Varying,
 };
 pub use memory::{MOST_SHARED_BYTES, Memory, SharedArray};
 pub use op::{AtomicOp, Axis, BinaryOp, Op, QuadDirection, UnaryOp};

@@ -30,6 +30,8 @@ pub enum Op {
     Varying(u32),
     /// A runtime parameter, by index into `Graph::uniforms`.
     Uniform(u32),
+    /// An option that the host sets when it creates the pipeline, by index into `Graph::overrides`.
+    Override(u32),
     /// An operation on one argument.
     Unary(UnaryOp),
     /// Two arguments of one type; comparisons return booleans, component by component. For float scalars, `Min` and `Max`

@@ -4,7 +4,7 @@
 
 use super::{
     Access, AtomicOp, Axis, BinaryOp, Buffer, Counter, Element, Event, Graph, Invocation, Memory, Node, NodeId, Op,
-    Origin, OutputTarget, QuadDirection, Region, RegionId, Sampler, Scalar, SharedArray, Structure, Texture,
+    Origin, OutputTarget, Override, QuadDirection, Region, RegionId, Sampler, Scalar, SharedArray, Structure, Texture,
     TextureKind, Type, UnaryOp, Uniform, UniformPart, Varying,
 };
 
@@ -92,6 +92,7 @@ impl GraphParser {
             "shared" => self.shared(rest),
             "sampler" => self.sampler(rest),
             "uniform" => self.uniform(rest),
+            "override" => self.override_option(rest),
             "varying" => {
                 let (name, kind) = split_name(rest)?;
                 let ty = parse_type(kind)?;
@@ -219,6 +220,27 @@ impl GraphParser {
             ty,
             default,
             part,
+        });
+        Ok(())
+    }
+
+    fn override_option(&mut self, text: &str) -> Parsed {
+        let (name, rest) = split_name(text)?;
+        let form = "an override is `override NAME: TYPE ID = DEFAULT`, with `from LOW to HIGH` for a range";
+        let (head, values) = rest.split_once(" = ").ok_or(form)?;
+        let (ty, id) = head.split_once(' ').ok_or(form)?;
+        let words: Vec<&str> = values.split_whitespace().collect();
+        let (default, range) = match words[..] {
+            [default] => (default, None),
+            [default, "from", low, "to", high] => (default, Some([parse_number(low)?, parse_number(high)?])),
+            _ => return Err(form.to_owned()),
+        };
+        self.graph.overrides.push(Override {
+            name,
+            id: parse_number(id)?,
+            ty: parse_type(ty)?,
+            default: parse_number(default)?,
+            range,
         });
         Ok(())
     }
@@ -410,6 +432,9 @@ impl GraphParser {
             },
             "uniform" => Op::Uniform(
                 find_position(g.uniforms.iter().map(|u| &u.name), word(0)?).ok_or_else(|| missing("uniform"))?,
+            ),
+            "override" => Op::Override(
+                find_position(g.overrides.iter().map(|o| &o.name), word(0)?).ok_or_else(|| missing("override"))?,
             ),
             "unary" => Op::Unary(parse_unary(word(0)?).ok_or_else(|| missing("operation"))?),
             "binary" => Op::Binary(parse_binary(word(0)?).ok_or_else(|| missing("operation"))?),

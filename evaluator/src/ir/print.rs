@@ -98,6 +98,12 @@ fn print_tables(graph: &Graph) -> String {
         });
         let _ = writeln!(text, "uniform {}: {}{part}{default}", u.name, u.ty);
     }
+    for o in &graph.overrides {
+        let range = o
+            .range
+            .map_or(String::new(), |[low, high]| format!(" from {low} to {high}"));
+        let _ = writeln!(text, "override {}: {} {} = {}{range}", o.name, o.ty, o.id, o.default);
+    }
     for v in &graph.varyings {
         let _ = writeln!(text, "varying {}: {}", v.name, v.ty);
     }
@@ -179,6 +185,7 @@ fn print_op(graph: &Graph, op: &Op, ty: Type) -> String {
             format!("const {}", lanes.collect::<Vec<_>>().join(" "))
         }
         Op::Uniform(k) => format!("uniform {}", graph.uniforms[*k as usize].name),
+        Op::Override(k) => format!("override {}", graph.overrides[*k as usize].name),
         Op::Unary(op) => format!("unary {op:?}"),
         Op::Binary(op) => format!("binary {op:?}"),
         Op::Extract(lane) => format!("extract {lane}"),

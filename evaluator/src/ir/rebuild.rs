@@ -113,6 +113,7 @@ pub fn copy_tables(old: &Graph, new: &mut Graph) {
     new.shared.clone_from(&old.shared);
     new.samplers.clone_from(&old.samplers);
     new.uniforms.clone_from(&old.uniforms);
+    new.overrides.clone_from(&old.overrides);
     new.tallies.clone_from(&old.tallies);
     new.files.clone_from(&old.files);
     new.purposes = Arc::clone(&old.purposes);

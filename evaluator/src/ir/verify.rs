@@ -276,6 +276,13 @@ fn check_node(graph: &Graph, id: NodeId, types: &mut Vec<Type>) -> Result<(), St
             count(0)?;
             expect(node.ty == uniform.ty, "of the uniform's type")
         }
+        Op::Override(k) => {
+            let of = graph.overrides.get(*k as usize).ok_or("no such override")?;
+            count(0)?;
+            let kinds = [Type::F32, Type::I32, Type::U32, Type::BOOL];
+            expect(kinds.contains(&of.ty), "a number or boolean")?;
+            expect(node.ty == of.ty, "of the override's type")
+        }
         Op::Tally(k) => {
             count(1)?;
             expect((*k as usize) < graph.tallies.len(), "no such tally")?;

@@ -106,8 +106,8 @@ fn fold_shape(b: &mut Builder<'_>, op: &Op, args: &[NodeId], ty: Type) -> Option
             let narrow = node(args[0]).args[0];
             Some(b.add(Op::Convert, [narrow], ty))
         }
-        // A constant or uniform is the same in every lane; two equal swaps in a row cancel.
-        Op::QuadSwap(_) if matches!(node(args[0]).op, Op::Const(_) | Op::Uniform(_)) => Some(args[0]),
+        // A constant or value of the host is the same in every lane; two equal swaps in a row cancel.
+        Op::QuadSwap(_) if matches!(node(args[0]).op, Op::Const(_) | Op::Uniform(_) | Op::Override(_)) => Some(args[0]),
         Op::QuadSwap(_) if node(args[0]).op == *op => Some(node(args[0]).args[0]),
         _ => None,
     }

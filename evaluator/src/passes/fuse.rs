@@ -168,6 +168,7 @@ struct Maps {
     samplers: Vec<u32>,
     buffers: Vec<u32>,
     uniforms: Vec<u32>,
+    overrides: Vec<u32>,
     tallies: Vec<u32>,
     files: Vec<u32>,
 }
@@ -192,6 +193,7 @@ impl Replace for Fuse<'_> {
             samplers: merge(&mut graph.samplers, &producer.samplers, |a, b| a.name == b.name),
             buffers: merge(&mut graph.buffers, &producer.buffers, |a, b| a.name == b.name),
             uniforms: merge(&mut graph.uniforms, &producer.uniforms, |a, b| a.name == b.name),
+            overrides: merge(&mut graph.overrides, &producer.overrides, |a, b| a.id == b.id),
             tallies: merge(&mut graph.tallies, &producer.tallies, |a, b| a == b),
             files: merge(&mut graph.files, &producer.files, |a, b| a == b),
         };
@@ -322,6 +324,7 @@ impl Fuse<'_> {
             }
             Op::BufferLen(buffer) | Op::BufferLoad { buffer, .. } => *buffer = maps.buffers[*buffer as usize],
             Op::Uniform(uniform) => *uniform = maps.uniforms[*uniform as usize],
+            Op::Override(of) => *of = maps.overrides[*of as usize],
             Op::Tally(tally) => *tally = maps.tallies[*tally as usize],
             _ => {}
         }

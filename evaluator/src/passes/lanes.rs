@@ -233,7 +233,10 @@ impl Expansion<'_> {
         if let Some(origin) = self.old.origin(old) {
             for (lane, id) in new.iter().enumerate() {
                 let op = &self.builder.graph().node(*id).op;
-                let fixed = matches!(op, Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_));
+                let fixed = matches!(
+                    op,
+                    Op::Const(_) | Op::Pixel | Op::FrameSize | Op::Uniform(_) | Op::Override(_)
+                );
                 if fixed && *op != self.old.node(old).op {
                     continue;
                 }

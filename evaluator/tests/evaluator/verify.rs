@@ -2,8 +2,8 @@
 
 use straightline_evaluator::ir::{
     Access, AtomicOp, BinaryOp, Buffer, Builder, Element, Graph, Invocation, Memory, Node, NodeId, Op, OutputTarget,
-    QuadDirection, RegionId, Rules, Sampler, Scalar, SharedArray, Texture, TextureKind, Type, UnaryOp, Uniform,
-    verify::verify_graph,
+    Override, QuadDirection, RegionId, Rules, Sampler, Scalar, SharedArray, Texture, TextureKind, Type, UnaryOp,
+    Uniform, verify::verify_graph,
 };
 
 struct Nothing;
@@ -124,6 +124,16 @@ fn node(graph: &mut Graph, k: usize) -> &mut Node {
     &mut graph.nodes[k]
 }
 
+fn an_override(ty: Type) -> Override {
+    Override {
+        name: "o".to_owned(),
+        id: 0,
+        ty,
+        default: 1.0,
+        range: None,
+    }
+}
+
 #[test]
 fn a_whole_graph_is_verified() {
     assert_eq!(verify_graph(&whole()), Ok(()));
@@ -228,6 +238,15 @@ fn every_rule_is_checked() {
             }
         }),
         ("no such uniform", |g| node(g, 3).op = Op::Uniform(9)),
+        ("no such override", |g| node(g, 3).op = Op::Override(9)),
+        ("of the override's type", |g| {
+            g.overrides = vec![an_override(Type::I32)];
+            node(g, 3).op = Op::Override(0);
+        }),
+        ("a number or boolean", |g| {
+            g.overrides = vec![an_override(VEC2)];
+            node(g, 3).op = Op::Override(0);
+        }),
         ("no such varying", |g| node(g, 3).op = Op::Varying(0)),
         ("no such tally", |g| node(g, 4).op = Op::Tally(9)),
         ("no such region", |g| node(g, 11).op = Op::Loop(RegionId(9))),

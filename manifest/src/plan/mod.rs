@@ -8,7 +8,7 @@ mod binding;
 #[cfg(feature = "json")]
 mod read;
 
-use crate::{Dimension, Extent, Format, SampleType, SamplerType, ValueType};
+use crate::{Dimension, Extent, Format, OverrideType, SampleType, SamplerType, ValueType};
 use std::borrow::Cow;
 
 #[cfg(feature = "json")]
@@ -40,6 +40,8 @@ pub struct Plan {
     pub uniforms: List<UniformPlan>,
     /// The rectangle, of a shader that filters one.
     pub region: Option<UniformPlan>,
+    /// Options that the host sets when it creates the pipeline.
+    pub overrides: List<OverridePlan>,
     /// Interpolated values; of a fragment shader only.
     pub varyings: List<VaryingPlan>,
     /// In the order of their locations.
@@ -137,6 +139,21 @@ impl FieldPlan {
     }
 }
 
+/// An option that the host sets when it creates the pipeline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OverridePlan {
+    /// Name in the kernel's source.
+    pub name: Text,
+    /// Number in the shader.
+    pub id: u32,
+    /// Type.
+    pub ty: OverrideType,
+    /// Value unless the host sets one; of a boolean 0 or 1.
+    pub default: f64,
+    /// Smallest and largest value that the kernel allows, if it states them.
+    pub range: Option<[f64; 2]>,
+}
+
 /// A column of a matrix, or an element of an array.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartPlan {
@@ -182,6 +199,18 @@ pub struct OutputPlan {
     pub place: Option<(u32, u32)>,
     /// Format that the shader was generated for.
     pub format: Format,
+}
+
+impl OverridePlan {
+    /// Returns whether a value lies in the range. A float is compared with the ends as floats.
+    pub fn allows(&self, value: f64) -> bool {
+        let [low, high] = self.range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let held = |number: f64| match self.ty {
+            OverrideType::F32 => f64::from(number as f32),
+            _ => number,
+        };
+        (held(low)..=held(high)).contains(&held(value))
+    }
 }
 
 impl Plan {

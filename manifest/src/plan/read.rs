@@ -1,6 +1,9 @@
 //! The plan of a manifest, which must not contradict itself.
 
-use super::{InputKind, InputPlan, OutputPlan, Plan, StagePlan, Text, TexturePlan, UniformPlan, VaryingPlan, binding};
+use super::{
+    InputKind, InputPlan, OutputPlan, OverridePlan, Plan, StagePlan, Text, TexturePlan, UniformPlan, VaryingPlan,
+    binding,
+};
 use crate::{
     Access, Binding, BindingKind, BufferType, Form, Manifest, Output, REGION_SIZE, Scalar, Stage, ViewDimension,
     region_fields,
@@ -31,6 +34,7 @@ impl Plan {
         }
         let stage = plan_stage(manifest).map_err(|problem| bad("output".to_owned(), problem))?;
         let varyings = plan_varyings(manifest).map_err(|problem| bad("varyings".to_owned(), problem))?;
+        let overrides = plan_overrides(manifest).map_err(|problem| bad("overrides".to_owned(), problem))?;
         let mut outputs = Vec::new();
         for (location, source) in (0..).zip(&manifest.outputs) {
             let read = plan_output(manifest, source, location);
@@ -61,6 +65,7 @@ impl Plan {
             inputs: inputs.into(),
             uniforms: uniforms.into(),
             region,
+            overrides: overrides.into(),
             varyings: varyings.into(),
             outputs: outputs.into(),
         };
@@ -239,6 +244,37 @@ fn plan_varyings(manifest: &Manifest) -> Result<Vec<VaryingPlan>, String> {
         )),
         None => Ok(all.iter().map(VaryingPlan::from).collect()),
     }
+}
+
+/// The overrides of `manifest`: names and numbers are unique, and defaults lie in the ranges.
+fn plan_overrides(manifest: &Manifest) -> Result<Vec<OverridePlan>, String> {
+    let all = &manifest.overrides;
+    let mut names: Vec<&str> = all.iter().map(|of| of.name.as_str()).collect();
+    let mut ids: Vec<u32> = all.iter().map(|of| of.id).collect();
+    if let Some(name) = find_repeated(&mut names) {
+        return Err(format!("`{name}` is listed twice"));
+    }
+    if let Some(id) = find_repeated(&mut ids) {
+        return Err(format!("number {id} is listed twice"));
+    }
+    let each = all.iter().map(|of| {
+        let (name, ty, default) = (&of.name, of.ty, of.default);
+        require(ty.holds(default), || {
+            format!("the default {default} of `{name}` is no {ty}")
+        })?;
+        let plan = OverridePlan {
+            name: name.clone().into(),
+            id: of.id,
+            ty,
+            default,
+            range: of.range,
+        };
+        require(plan.allows(default), || {
+            format!("the default {default} of `{name}` is out of its range")
+        })?;
+        Ok(plan)
+    });
+    each.collect()
 }
 
 impl From<&crate::Varying> for VaryingPlan {

@@ -8,6 +8,7 @@ mod recipe;
 mod travelling;
 
 use crate::inputs::Abilities;
+use crate::overrides::find_override;
 use crate::{Error, Pass, PassOptions, Shader};
 use recipe::Recipe;
 use std::sync::Arc;
@@ -104,13 +105,15 @@ impl Chain {
     }
 
     /// A chain of `plan`, whose passes name the `shaders`: each exactly once. `options` apply to the chain's results:
-    /// formats are those of targets that the caller gives, by the names of the results.
+    /// formats are those of targets that the caller gives, by the names of the results. An override applies to every
+    /// pass that has it.
     ///
     /// # Errors
     ///
     /// [`Error::Chain`] if the plan contradicts itself or does not fit the shaders, or if a pass cannot be made: the
     /// problem has the name of the pass and its error. [`Error::TargetFormat`] for the format of a result that the
-    /// chain does not have; [`Error::DeviceLost`] and [`Error::OutOfMemory`].
+    /// chain does not have; [`Error::UnknownOverride`] for an override that no pass has; [`Error::DeviceLost`] and
+    /// [`Error::OutOfMemory`].
     pub fn from_shaders(
         device: &Device,
         plan: &ChainPlan,
@@ -119,6 +122,10 @@ impl Chain {
     ) -> Result<Self, Error> {
         let recipe = Recipe::new(plan, shaders, options)?;
         recipe.check_reads(shaders, &Abilities::new(device))?;
+        for (name, _) in &options.overrides {
+            let all = shaders.iter().flat_map(|(_, shader)| shader.plan.overrides.iter());
+            find_override(all, &plan.chain, name)?;
+        }
         let mut passes: Vec<Pass> = Vec::new();
         let mut made: Vec<(usize, Vec<TextureFormat>)> = Vec::new();
         let mut pass_numbers = Vec::new();
@@ -130,7 +137,10 @@ impl Chain {
                 None => {
                     let (_, shader) = shaders[step.shader];
                     let outputs = shader.plan.outputs.iter().zip(&wanted.1);
-                    let bare = PassOptions::default().unbounded_loops(options.unbounded_loops);
+                    let of_shader = |name: &str| shader.plan.overrides.iter().any(|of| of.name == name);
+                    let mut bare = PassOptions::default().unbounded_loops(options.unbounded_loops);
+                    let overrides = options.overrides.iter().filter(|(name, _)| of_shader(name));
+                    bare.overrides.extend(overrides.cloned());
                     let options = outputs.fold(bare, |options, (output, format)| {
                         options.format_of(&output.name, *format)
                     });

@@ -8,6 +8,7 @@ use crate::guard::LossProbe;
 use crate::inputs::{Abilities, arrange_inputs, check_inputs, frame_size};
 use crate::layout::{BoundGroup, Layout};
 use crate::module::Source;
+use crate::overrides::{chosen_overrides, pipeline_constants};
 use crate::pass::check_features;
 use crate::pipeline::{VertexSide, check_formats, render_pipeline};
 use crate::plan::{Plan, StagePlan};
@@ -90,6 +91,7 @@ impl Draw {
         check_drawable(&plan)?;
         check_features(device, &plan)?;
         let formats = check_formats(device, &plan, &options.pass)?;
+        let constants = pipeline_constants(&chosen_overrides(&plan, &options.pass)?);
         let doing = format!("making a pipeline of `{}`", plan.kernel);
         let loss_probe = LossProbe::new(device, &doing)?;
         let layout = Layout::with_groups(device, &plan, &options.groups)?;
@@ -104,7 +106,7 @@ impl Draw {
             multisample: options.multisample,
             blend: options.blend,
         };
-        let pipeline = render_pipeline(device, &plan, &layout, (side, &fragment), &formats);
+        let pipeline = render_pipeline(device, &plan, &layout, (side, &fragment), (&formats, &constants));
         let pipeline = pipeline.map_err(|error| vertices::explain_error(error, &plan, &options.vertex))?;
         loss_probe.check(device, &doing)?;
         Ok(Draw {

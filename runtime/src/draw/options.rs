@@ -103,7 +103,7 @@ impl<'a> DrawOptions<'a> {
         self
     }
 
-    /// Formats of the targets, and whether loops go without wgpu's bound.
+    /// Formats of the targets, values of overrides, and whether loops go without wgpu's bound.
     pub fn pass(mut self, options: PassOptions) -> Self {
         self.pass = options;
         self

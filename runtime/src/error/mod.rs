@@ -4,7 +4,8 @@ mod chain;
 mod names;
 mod problem;
 
-use crate::{Region, ResourceKind};
+use crate::plan::OverrideType;
+use crate::{OverrideValue, Region, ResourceKind};
 use wgpu::TextureFormat;
 
 pub use chain::ChainProblem;
@@ -337,6 +338,43 @@ pub enum Error {
         needed: String,
         /// The value's type, as WGSL spells it.
         given: String,
+    },
+
+    /// An override was named that the kernel does not have.
+    #[error("`{kernel}` has no override `{name}`; it has {known}: emit it with `override`, or leave the value out")]
+    UnknownOverride {
+        /// The kernel's or chain's name.
+        kernel: String,
+        /// The name that was given.
+        name: String,
+        /// All overrides of the kernel or chain.
+        known: Names,
+    },
+
+    /// An override was given a value of another type.
+    #[error("override `{name}` of `{kernel}` is of type {needed}, but was given a value of type {given}")]
+    OverrideType {
+        /// The kernel's name.
+        kernel: String,
+        /// The override.
+        name: String,
+        /// Type of the override.
+        needed: OverrideType,
+        /// Type of the value.
+        given: OverrideType,
+    },
+
+    /// An override was given a value that it cannot have.
+    #[error("override `{name}` of `{kernel}` cannot be {value}: it takes {allowed}")]
+    OverrideValue {
+        /// The kernel's name.
+        kernel: String,
+        /// The override.
+        name: String,
+        /// The value.
+        value: OverrideValue,
+        /// Values that the override takes.
+        allowed: String,
     },
 
     /// Uniforms were to be written all at once, but the kernel has none.

@@ -88,6 +88,7 @@ mod generated {
             }]),
             uniforms: Borrowed(&[]),
             region: None,
+            overrides: Borrowed(&[]),
             varyings: Borrowed(&[]),
             outputs: Borrowed(&[OutputPlan {
                 name: Borrowed("output"),

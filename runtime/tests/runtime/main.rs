@@ -13,6 +13,7 @@ mod errors_chains;
 mod errors_making;
 mod errors_resources;
 mod errors_uniforms;
+mod overrides;
 mod quads;
 mod resources;
 mod timer;

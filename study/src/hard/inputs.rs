@@ -70,9 +70,16 @@ pub fn build_case_inputs(case: &Case, form: &KernelForm, options: &OptionValues)
 fn sraa_params(case: &Case, options: &OptionValues) -> Result<SraaParams, OracleFailure> {
     let mut params = SraaParams::default();
     for (name, value) in options {
-        if *value != OptionValue::Uniform {
-            params.set(name, value)?;
-            continue;
+        match value {
+            OptionValue::Uniform => {}
+            OptionValue::Override(default) => {
+                params.set(name, default)?;
+                continue;
+            }
+            value => {
+                params.set(name, value)?;
+                continue;
+            }
         }
         let uniform = name.replace('-', "_");
         if let Some((_, number)) = case.uniforms.iter().find(|(known, _)| *known == uniform) {

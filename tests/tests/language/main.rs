@@ -12,6 +12,7 @@ mod language;
 mod loops;
 mod names;
 mod operations;
+mod overrides;
 mod random;
 mod ranges;
 mod uniforms;

@@ -27,7 +27,7 @@ mod generated {
 const SIZE: UVec2 = uvec2(45, 31);
 
 /// Each module with its manifest and constant.
-const MODULES: [(&str, &Shader<'static>); 7] = [
+const MODULES: [(&str, &Shader<'static>); 8] = [
     (generated::all::MANIFEST, &generated::all::SHADER),
     (generated::tile::MANIFEST, &generated::tile::SHADER),
     (generated::graded::MANIFEST, &generated::graded::SHADER),
@@ -35,6 +35,7 @@ const MODULES: [(&str, &Shader<'static>); 7] = [
     (generated::several::MANIFEST, &generated::several::SHADER),
     (generated::waiting::MANIFEST, &generated::waiting::SHADER),
     (generated::sraa::MANIFEST, &generated::sraa::SHADER),
+    (generated::faded::MANIFEST, &generated::faded::SHADER),
 ];
 
 fn captured() -> PathBuf {
@@ -94,6 +95,77 @@ fn a_chain_of_constants_is_the_chain_that_is_read() {
         .map(far)
         .fold(0.0, f64::max);
     assert!(worst < 0.01, "off by {worst}");
+}
+
+/// The generated structure of overrides has their defaults, and changes the picture of a constant.
+#[test]
+fn generated_overrides_set_the_picture() {
+    use generated::faded::{Inputs, Overrides, Pass};
+    let defaults = Overrides::default();
+    assert_eq!(
+        defaults,
+        Overrides {
+            strength: 0.75,
+            inverted: false
+        }
+    );
+    let bench = bench();
+    let texels = (0..SIZE.x * SIZE.y).map(|k| Vec4::splat((k % 5) as f32 * 0.25));
+    let color = Frame::new(SIZE, texels.collect());
+    let kernel = Kernel::from_file(&captured().join("kernels/faded.rs"), None);
+    let compiled = kernel.and_then(|kernel| kernel.compile(&Settings::new().override_options(["strength"])));
+    let given = straightline_bench::execute::Inputs::new(SIZE).with_image("color", color.clone());
+    let emitted = compiled.and_then(|compiled| compiled.emit(&EmitOptions::new().format(Format::Rgba32Float)));
+    let uploaded = bench.upload(&emitted.unwrap_or_else(|e| panic!("{e}")).manifest, &given);
+    let uploaded = uploaded.unwrap_or_else(|e| panic!("{e}"));
+    let resources = uploaded.resources();
+    let [("color", straightline_runtime::Resource::Texture(view))] = resources[..] else {
+        panic!("one texture is read");
+    };
+    for (overrides, kept) in [
+        (defaults, 0.75),
+        (
+            Overrides {
+                strength: 0.25,
+                ..defaults
+            },
+            0.25,
+        ),
+        (
+            Overrides {
+                strength: 1.0,
+                inverted: true,
+            },
+            1.0,
+        ),
+    ] {
+        let pass = Pass::with_options(bench.device(), &overrides.apply(PassOptions::default()));
+        let pass = pass.unwrap_or_else(|e| panic!("{e}"));
+        let target = bench.create_target(SIZE, TextureFormat::Rgba32Float);
+        let bound = pass.bind(
+            &Inputs { color: view },
+            &target.create_view(&wgpu::TextureViewDescriptor::default()),
+        );
+        let mut encoder = bench
+            .device()
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        bound.unwrap_or_else(|e| panic!("{e}")).encode(&mut encoder);
+        bench.queue().submit([encoder.finish()]);
+        let found = bench.download(&target).unwrap_or_else(|e| panic!("{e}"));
+        let expected = color.texels().iter().map(|texel| {
+            let texel = if overrides.inverted { Vec4::ONE - *texel } else { *texel };
+            texel * kept
+        });
+        assert_eq!(found.texels(), expected.collect::<Vec<_>>());
+    }
+    let options = PassOptions::default().override_option("strength", 1.5);
+    let refused = Pass::with_options(bench.device(), &options).expect_err("out of range");
+    assert!(
+        refused
+            .to_string()
+            .contains("`strength` of `faded` cannot be 1.5: it takes 0 to 1"),
+        "{refused}"
+    );
 }
 
 #[test]

@@ -133,6 +133,28 @@ fn compilers_read_what_is_emitted() {
     }
 }
 
+/// An engine creates the pipeline, so its shaders have the defaults of overrides; their text declares them.
+#[test]
+fn overrides_have_their_defaults() {
+    let subject = Subject::new(
+        "bilateral",
+        "kernels/filters/bilateral.rs",
+        &[("sigma", "override(1.75)")],
+    );
+    let mut engines = 0;
+    for engine in engine_names() {
+        let files = subject.files(engine).unwrap_or_else(|e| panic!("{engine}: {e}"));
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("text");
+        let files: BTreeMap<String, String> = files.into_iter().map(|(name, bytes)| (name, text(bytes))).collect();
+        let is_declared =
+            |text: &String| text.contains("#define OVERRIDE_SIGMA 1.75") || text.contains("override sigma: f32 = 1.75");
+        assert!(files.values().any(is_declared), "{engine}: {files:?}");
+        readable::check(engine, &files).unwrap_or_else(|e| panic!("{engine}: {e}"));
+        engines += 1;
+    }
+    assert!(engines > 9);
+}
+
 /// The folder of one small kernel, engine by engine.
 #[test]
 fn folders_are_as_they_were() {

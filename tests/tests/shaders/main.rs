@@ -19,6 +19,7 @@ mod images;
 mod opengl;
 mod origin;
 mod outputs;
+mod overrides;
 mod passes;
 mod passthrough;
 mod resolution;

@@ -83,8 +83,9 @@ fn list_inputs(chain: &CompiledChain) -> Wanted {
     let graph = chain.inputs_graph();
     Wanted {
         name: chain.name.clone(),
+        uniforms: inputs::host_values(&graph),
         textures: graph.textures,
-        uniforms: graph.uniforms,
+        overrides: graph.overrides,
         buffers: graph.buffers,
     }
 }

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use glam::{UVec2, Vec4};
 use std::path::Path;
 use straightline_bench::execute::{self, Inputs};
-use straightline_codegen::ir::{Buffer, Scalar, Texture, TextureKind, Uniform};
+use straightline_codegen::ir::{Buffer, Graph, Override, Scalar, Texture, TextureKind, Type, Uniform};
 use straightline_codegen::{Compiled, Stage, shorten};
 use straightline_kernels::prelude::Frame;
 use straightline_scene::picture;
@@ -18,7 +18,10 @@ pub struct Wanted {
     /// Name of the kernel or chain.
     pub name: String,
     pub textures: Vec<Texture>,
+    /// Values of the host, among them the overrides.
     pub uniforms: Vec<Uniform>,
+    /// Overrides, for their ranges.
+    pub overrides: Vec<Override>,
     pub buffers: Vec<Buffer>,
 }
 
@@ -29,7 +32,8 @@ impl Wanted {
         Wanted {
             name: compiled.kernel.clone(),
             textures: graph.textures.clone(),
-            uniforms: graph.uniforms.clone(),
+            uniforms: host_values(graph),
+            overrides: graph.overrides.clone(),
             buffers: graph.buffers.clone(),
         }
     }
@@ -107,7 +111,16 @@ pub fn read_given(given: &GivenArgs, wanted: &Wanted) -> Result<Inputs, Failure>
         if inputs.uniforms.iter().any(|(known, _)| known == name) {
             return Err(Failure::Usage(format!("the uniform `{name}` is given twice")));
         }
-        inputs = inputs.with_uniform(name, &values::parse_uniform(name, uniform.ty, text)?);
+        let value = values::parse_uniform(name, uniform.ty, text)?;
+        let range = wanted
+            .overrides
+            .iter()
+            .find(|of| of.name == *name)
+            .and_then(|of| of.range);
+        if let Some([low, high]) = range.filter(|[low, high]| !(*low..=*high).contains(&value[0])) {
+            return Err(Failure::Usage(format!("`{name}` is {low} to {high}, not {}", value[0])));
+        }
+        inputs = inputs.with_uniform(name, &value);
     }
     for (name, text) in &given.buffer {
         let Some(buffer) = wanted.buffers.iter().find(|b| b.name == *name) else {
@@ -279,6 +292,17 @@ fn add_picture<T: Copy>(
         None => images.push((name.clone(), vec![picture])),
     }
     Ok(())
+}
+
+/// Values that a host sets: uniforms, and overrides with their defaults. A boolean is a number.
+pub fn host_values(graph: &Graph) -> Vec<Uniform> {
+    let overrides = graph.overrides.iter().map(|of| Uniform {
+        name: of.name.clone(),
+        ty: if of.ty == Type::BOOL { Type::U32 } else { of.ty },
+        default: Some(of.default),
+        part: None,
+    });
+    graph.uniforms.iter().cloned().chain(overrides).collect()
 }
 
 fn unknown_input<'a>(wanted: &Wanted, what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Failure {

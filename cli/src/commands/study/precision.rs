@@ -37,7 +37,7 @@ pub fn find_precision(common: &CommonArgs, args: &PrecisionArgs, progress: &mut 
     let record = PrecisionRecord {
         circumstances: on_processor(inputs.size, 0),
         kernel: kernel.name().to_owned(),
-        options: settings.options.clone(),
+        options: settings.option_texts(),
         input: given.to_string(),
         max_error: args.max_error,
         devices: compilers

@@ -130,9 +130,10 @@ fn asked_options(args: &TuneArgs) -> Result<OptionValues, Failure> {
     let settings = Settings::new().set_all(args.set.clone());
     let mut asked = Kernel::builtin("sraa")?.compile(&settings)?.options;
     asked.retain(|name, _| args.set.iter().any(|(set, _)| set == name));
-    if let Some((name, _)) = asked.iter().find(|(_, value)| **value == OptionValue::Uniform) {
+    let is_left = |value: &OptionValue| matches!(value, OptionValue::Uniform | OptionValue::Override(_));
+    if let Some((name, value)) = asked.iter().find(|(_, value)| is_left(value)) {
         return Err(Failure::Usage(format!(
-            "`{name}=uniform` leaves the value to a host; here give a number"
+            "`{name}={value}` leaves the value to a host; here give a number"
         )));
     }
     Ok(asked)

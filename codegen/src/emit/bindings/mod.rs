@@ -3,6 +3,7 @@
 mod chain;
 mod inputs;
 mod layout;
+mod overrides;
 mod parameters;
 mod pass;
 mod shader;
@@ -81,6 +82,7 @@ fn quote_module(module: &Module<'_>) -> Result<TokenStream, Refusal> {
     let targets = Targets::from_manifest(manifest);
     let targets_struct = &targets.structure;
     let given = Given::from_inputs(&inputs, &structure, setters);
+    let overrides = overrides::quote_overrides(manifest);
     let runs = match manifest.varyings.is_empty() {
         true => pass::quote_pass(manifest, &given, &targets),
         false => pass::quote_draw(manifest, &given),
@@ -104,6 +106,8 @@ fn quote_module(module: &Module<'_>) -> Result<TokenStream, Refusal> {
             #targets_struct
 
             #structure
+
+            #overrides
 
             #elements
 

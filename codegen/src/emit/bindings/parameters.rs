@@ -44,7 +44,7 @@ pub fn quote_elements(manifest: &Manifest) -> TokenStream {
 }
 
 /// Names of types that the module uses, including those of the prelude.
-const TYPES: [&str; 30] = [
+const TYPES: [&str; 31] = [
     "Bound",
     "BoundDraw",
     "Clone",
@@ -60,6 +60,7 @@ const TYPES: [&str; 30] = [
     "IntoIterator",
     "Iterator",
     "Option",
+    "Overrides",
     "Parameters",
     "PartialEq",
     "Pass",

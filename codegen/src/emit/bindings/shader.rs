@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use std::collections::BTreeSet;
 use straightline_manifest::plan::{
-    FieldPlan, InputKind, InputPlan, OutputPlan, PartPlan, Plan, StagePlan, UniformPlan, VaryingPlan,
+    FieldPlan, InputKind, InputPlan, OutputPlan, OverridePlan, PartPlan, Plan, StagePlan, UniformPlan, VaryingPlan,
 };
 use straightline_manifest::{Scalar, ValueType, text_hash};
 
@@ -46,7 +46,7 @@ pub fn quote_shader(module: &Module<'_>) -> Result<TokenStream, Refusal> {
 }
 
 /// Items of `straightline_runtime::plan` that may be named.
-const WORDS: [&str; 20] = [
+const WORDS: [&str; 22] = [
     "Borrowed",
     "BufferPlan",
     "Dimension",
@@ -57,6 +57,8 @@ const WORDS: [&str; 20] = [
     "InputPlan",
     "Loops",
     "OutputPlan",
+    "OverridePlan",
+    "OverrideType",
     "PartPlan",
     "Plan",
     "SampleType",
@@ -114,6 +116,7 @@ fn plan_of(plan: &Plan) -> TokenStream {
         inputs,
         uniforms,
         region,
+        overrides,
         varyings,
         outputs,
     } = plan;
@@ -129,6 +132,7 @@ fn plan_of(plan: &Plan) -> TokenStream {
     let inputs = inputs.iter().map(quote_input);
     let uniforms = uniforms.iter().map(quote_uniform);
     let region = quote_option(region.as_ref().map(quote_uniform));
+    let overrides = overrides.iter().map(quote_override);
     let varyings = varyings.iter().map(quote_varying);
     let outputs = outputs.iter().map(quote_output);
     quote! {
@@ -141,6 +145,7 @@ fn plan_of(plan: &Plan) -> TokenStream {
             inputs: Borrowed(&[#(#inputs),*]),
             uniforms: Borrowed(&[#(#uniforms),*]),
             region: #region,
+            overrides: Borrowed(&[#(#overrides),*]),
             varyings: Borrowed(&[#(#varyings),*]),
             outputs: Borrowed(&[#(#outputs),*]),
         }
@@ -248,6 +253,19 @@ fn quote_number(scalar: Scalar, word: [u8; 4]) -> TokenStream {
             quote! { #positive }
         }
     }
+}
+
+fn quote_override(of: &OverridePlan) -> TokenStream {
+    let OverridePlan {
+        name,
+        id,
+        ty,
+        default,
+        range,
+    } = of;
+    let (id, ty) = (Literal::u32_unsuffixed(*id), variant_name(ty));
+    let range = quote_option(range.map(|[low, high]| quote! { [#low, #high] }));
+    quote! { OverridePlan { name: Borrowed(#name), id: #id, ty: OverrideType::#ty, default: #default, range: #range } }
 }
 
 fn quote_varying(varying: &VaryingPlan) -> TokenStream {

@@ -42,8 +42,8 @@ fn to_half_type(ty: Ty) -> Ty {
 
 fn half_rule(mut expr: Expr) -> Expr {
     use ir::Op::{
-        Bitcast, BufferLoad, Compare, Derivative, Gather, GatherCompare, Load, QuadSwap, Sample, SharedLoad, Uniform,
-        Varying,
+        Bitcast, BufferLoad, Compare, Derivative, Gather, GatherCompare, Load, Override, QuadSwap, Sample, SharedLoad,
+        Uniform, Varying,
     };
     match &expr.op {
         // Bits are those of an `f32` in every precision.
@@ -58,6 +58,7 @@ fn half_rule(mut expr: Expr) -> Expr {
             | QuadSwap(_)
             | Derivative(_)
             | Uniform(_)
+            | Override(_)
             | Varying(_)
             | Bitcast,
         ) => {

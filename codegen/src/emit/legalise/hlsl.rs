@@ -55,7 +55,7 @@ fn chosen_before<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
 /// Returns whether an expression needs no computation.
 fn is_plain(expr: &Expr) -> bool {
     match &expr.op {
-        Op::Var(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Varying(_)) => true,
+        Op::Var(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Override(_) | ir::Op::Varying(_)) => true,
         Op::Swizzle(_) | Op::Construct => expr.args.iter().all(is_plain),
         _ => false,
     }

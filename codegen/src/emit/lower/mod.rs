@@ -328,7 +328,7 @@ impl<'g> Lowering<'g> {
 /// Returns whether an expression is short enough to be repeated at every use.
 fn is_atom(expr: &Expr) -> bool {
     match &expr.op {
-        Op::Var(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Varying(_)) => true,
+        Op::Var(_) | Op::Ir(ir::Op::Const(_) | ir::Op::Uniform(_) | ir::Op::Override(_) | ir::Op::Varying(_)) => true,
         Op::Swizzle(_) => is_atom(&expr.args[0]),
         Op::Construct => expr.args.len() == 1 && is_atom(&expr.args[0]),
         _ => false,

@@ -3,6 +3,7 @@
 mod types;
 
 use super::expr::{float_literal, integer_literal, unsigned_literal};
+use super::overrides::PrintOverrides;
 use super::wgsl::pad_texel;
 use super::{Language, Text, header_comment};
 use crate::emit::Target;
@@ -298,6 +299,7 @@ impl Language for Glsl<'_> {
                 Text::name(self.resources.uniform_name(*k))
             }
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform_name(*k))),
+            ir::Op::Override(k) => Text::name(self.resources.bound_override(*k).of.name.as_str()),
             ir::Op::Varying(k) => Text::name(self.resources.varying_name(*k)),
             ir::Op::TextureSize(texture) => {
                 let name = self.unfiltered_texture(*texture);
@@ -527,7 +529,12 @@ impl Language for Glsl<'_> {
             }
             out.push('\n');
         }
+        let overrides = match self.is_vulkan() && !self.is_function() {
+            true => self.specialization_constants(),
+            false => self.override_macros(|ty, name, value| format!("const {ty} {name} = {ty}({value});")),
+        };
         if self.is_function() {
+            out += &overrides;
             if r.outputs.len() > 1 {
                 out += &self.outputs_structure();
             }
@@ -541,6 +548,9 @@ impl Language for Glsl<'_> {
             true => self.of_vulkan(),
             false => self.opengl_declarations(),
         };
+        if !overrides.is_empty() {
+            out += &format!("\n{overrides}");
+        }
         for shared in r.shared_memory() {
             let element = type_name(shared.element.into());
             out += &format!("shared {element} {}[{}];\n", shared.name, shared.len);

@@ -3,6 +3,7 @@
 mod declarations;
 
 use super::expr::{float_literal, integer_literal, unsigned_literal};
+use super::overrides::PrintOverrides;
 use super::{Language, Text, header_comment};
 use crate::emit::ast::{Builtin, Effect, Expr, Module, Op, Ty};
 use crate::emit::derived::Derived;
@@ -216,6 +217,7 @@ impl Language for Hlsl<'_> {
         match op {
             ir::Op::Uniform(k) if self.is_function() => Text::name(r.uniform_name(*k)),
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", r.uniform_name(*k))),
+            ir::Op::Override(k) => Text::name(r.bound_override(*k).of.name.as_str()),
             ir::Op::Varying(k) => Text::name(r.varying_name(*k)),
             ir::Op::TextureSize(texture) => self.size_call(Size::Texture(*texture)),
             ir::Op::TextureLevels(texture) => self.size_call(Size::Levels(*texture)),
@@ -404,7 +406,11 @@ impl Language for Hlsl<'_> {
         out += &header_comment(header);
         out.push('\n');
         out += &structure_declarations(r);
+        let overrides = self.override_macros(|ty, name, value| format!("static const {ty} {name} = {value};"));
         if self.is_function() {
+            if !overrides.is_empty() {
+                out += &format!("{overrides}\n");
+            }
             if r.outputs.len() > 1 {
                 out += &format!("{}\n", self.outputs_structure());
             }
@@ -451,6 +457,9 @@ impl Language for Hlsl<'_> {
             out += "    int2 first;\n    int2 size;\n    int2 place;\n};\n\n";
             let register = r.places.register_at('b', binding);
             out += &format!("cbuffer Region_buffer : register({register}) {{\n    Region {REGION};\n}}\n");
+        }
+        if !overrides.is_empty() {
+            out += &format!("\n{overrides}");
         }
         for shared in r.shared_memory() {
             let element = type_name(shared.element.into());

@@ -6,6 +6,7 @@ mod glsl;
 mod header;
 mod hlsl;
 mod opengl;
+mod overrides;
 mod vulkan;
 mod wgsl;
 

@@ -1,10 +1,23 @@
 //! Declarations in Vulkan's GLSL: separate textures and samplers in descriptor sets.
 
 use super::glsl::{Glsl, sampler_type, texture_type, variable_declared};
+use super::overrides::PrintOverrides;
 use crate::emit::own_words::{SAMPLER, UNIFORMS};
 use straightline_manifest::REGION;
 
 impl Glsl<'_> {
+    /// Declares the overrides, which a host sets by their numbers.
+    pub(super) fn specialization_constants(&self) -> String {
+        let mut out = self.override_comment();
+        for (_, bound) in &self.resources.overrides {
+            let of = &bound.of;
+            let declared = variable_declared(&of.name, of.ty.into());
+            let (default, range) = (self.override_default(of), self.range_comment(of));
+            out += &format!("layout(constant_id = {}) const {declared} = {default};{range}\n", of.id);
+        }
+        out
+    }
+
     /// Declares the bindings of Vulkan.
     pub(super) fn of_vulkan(&self) -> String {
         let r = self.resources;

@@ -1,8 +1,10 @@
 //! WGSL as WebGPU and wgpu read it.
 
 use super::expr::{float_literal, integer_literal, unsigned_literal};
+use super::overrides::PrintOverrides;
 use super::{Language, Text, header_comment};
 use crate::emit::ast::{Builtin, Effect, Ty};
+use crate::emit::derived::Derived;
 use crate::emit::host_reads;
 use crate::emit::outputs::{BoundOutput, one_bits};
 use crate::emit::own_words::UNIFORMS;
@@ -71,6 +73,7 @@ impl Language for Wgsl<'_> {
         match op {
             ir::Op::Uniform(k) if self.function_leads() => Text::name(self.resources.uniform_name(*k)),
             ir::Op::Uniform(k) => Text::name(format!("{UNIFORMS}.{}", self.resources.uniform_name(*k))),
+            ir::Op::Override(k) => Text::name(self.resources.derived_name(Derived::Held(*k))),
             ir::Op::Varying(k) => Text::name(self.resources.varying_name(*k)),
             ir::Op::TextureSize(texture) => {
                 let name = Text::name(self.resources.texture(*texture).name.as_str());
@@ -317,6 +320,9 @@ impl Language for Wgsl<'_> {
             out += "    first: vec2i,\n    size: vec2i,\n    place: vec2i,\n}\n\n";
             out += &format!("@group({group}) @binding({binding}) var<uniform> {REGION}: Region;\n");
         }
+        if !r.overrides.is_empty() {
+            out += &format!("\n{}", self.override_declarations());
+        }
         for shared in r.shared_memory() {
             let element = Ty::from(shared.element).short_name();
             let element = if shared.atomic {
@@ -372,12 +378,44 @@ impl Language for Wgsl<'_> {
     }
 
     fn trailing_text(&self) -> Option<String> {
-        let r = self.resources;
-        (self.function_leads() && r.outputs.len() > 1).then(|| self.outputs_structure())
+        let several = self.resources.outputs.len() > 1;
+        let parts = [
+            several.then(|| self.outputs_structure()),
+            (!self.resources.overrides.is_empty()).then(|| self.override_declarations()),
+        ];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        (self.function_leads() && !parts.is_empty()).then(|| parts.join("\n"))
     }
 }
 
 impl Wgsl<'_> {
+    /// Declares the overrides, each with the variable that the kernel reads. An expression of overrides alone is
+    /// evaluated when the pipeline is created, which fails where it overflows or divides by zero; one of variables does
+    /// not.
+    fn override_declarations(&self) -> String {
+        let r = self.resources;
+        let mut out = self.override_comment();
+        let [mut declared, mut held] = [String::new(), String::new()];
+        for (k, bound) in &r.overrides {
+            let (of, variable) = (&bound.of, r.derived_name(Derived::Held(*k)));
+            let (name, ty) = (&of.name, Ty::from(of.ty).short_name());
+            let default = self.override_default(of);
+            if r.holds_defaults {
+                held += &format!("var<private> {variable}: {ty} = {default};\n");
+                continue;
+            }
+            // The host of a function has overrides of its own, and numbers them.
+            let id = match self.function_leads() {
+                true => String::new(),
+                false => format!("@id({}) ", of.id),
+            };
+            declared += &format!("{id}override {name}: {ty} = {default};{}\n", self.range_comment(of));
+            held += &format!("var<private> {variable}: {ty} = {name};\n");
+        }
+        out += &declared;
+        out + &held
+    }
+
     /// Declares the structure of several outputs; for an entry point with their locations.
     fn outputs_structure(&self) -> String {
         let r = self.resources;

@@ -1,9 +1,12 @@
-//! SPIR-V as words: straight-line functions are inlined, consecutive blocks joined, and exact operations decorated.
+//! SPIR-V as words: straight-line functions are inlined, consecutive blocks joined, exact operations decorated, and
+//! overrides made specialization constants.
 
 mod inline;
+mod spec_constants;
 mod uncontracted;
 
 pub use inline::inline_functions;
+pub use spec_constants::{SpecConstant, add_spec_constants};
 pub use uncontracted::forbid_contraction;
 
 /// Words before the first instruction: magic number, version, generator, bound of ids, and 0.

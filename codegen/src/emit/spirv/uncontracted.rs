@@ -103,12 +103,12 @@ pub fn forbid_contraction(words: &[u32]) -> Vec<u32> {
 }
 
 /// Returns the first word of an instruction.
-fn instruction_head(length: u32, opcode: u32) -> u32 {
+pub(super) fn instruction_head(length: u32, opcode: u32) -> u32 {
     length << 16 | opcode
 }
 
 /// Returns whether an instruction precedes the types of a module, where decorations belong.
-fn is_before_types(opcode: u32) -> bool {
+pub(super) fn is_before_types(opcode: u32) -> bool {
     use code::*;
     matches!(
         opcode,
@@ -131,7 +131,7 @@ fn is_before_types(opcode: u32) -> bool {
 }
 
 /// Decodes a literal string.
-fn literal_string(words: &[u32]) -> String {
+pub(super) fn literal_string(words: &[u32]) -> String {
     let bytes = words.iter().flat_map(|word| word.to_le_bytes());
     String::from_utf8_lossy(&bytes.take_while(|byte| *byte != 0).collect::<Vec<u8>>()).into_owned()
 }

@@ -59,6 +59,7 @@ impl Columns<'_> {
                         .get(*k as usize)
                         .map_or(10, |uniform| uniform.name.len())
                 }
+                ir::Op::Override(k) => 6 + self.graph.overrides[*k as usize].name.len(),
                 ir::Op::Varying(k) => self.graph.varyings[*k as usize].name.len(),
                 ir::Op::Unary(ir::UnaryOp::Neg | ir::UnaryOp::Not | ir::UnaryOp::BitNot) => {
                     args + 1 + parenthesis_columns(expr)

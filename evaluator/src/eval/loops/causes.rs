@@ -76,6 +76,7 @@ fn describe_input(graph: &Graph, op: &Op) -> Option<String> {
             let name = uniform.part.as_ref().map_or(&uniform.name, |part| &part.of);
             format!("the uniform `{name}`")
         }
+        Op::Override(k) => format!("the override `{}`", graph.overrides[*k as usize].name),
         Op::Varying(k) => format!("the varying `{}`", graph.varyings[*k as usize].name),
         Op::Pixel | Op::Lane | Op::Thread | Op::GroupOrigin | Op::Inside => "the pixel's position".to_owned(),
         Op::FrameSize => "the size of the frame".to_owned(),

@@ -9,13 +9,13 @@ use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Errors, File};
 use crate::front::tree::{OptionField, Type as SourceType};
 use crate::front::{Library, raw_name};
-use crate::ir::{Op, Scalar, Type, Uniform};
+use crate::ir::{Op, Override, Scalar, Type, Uniform};
 use crate::policy::Policy;
 use std::sync::Arc;
 use straightline_kernels::{OptionText, OptionValue, OptionValues, kebab};
 
-pub use parse::parse_settings;
 pub(super) use parse::unknown_settings;
+pub use parse::{override_text, parse_settings};
 
 /// An option of a kernel.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +47,8 @@ impl OptionInfo {
 pub enum OptionKind {
     /// A choice of several values, each with its meaning.
     Choice(Vec<(String, String)>),
-    /// A number, or `uniform` for one that is set at run time.
+    /// A number, `uniform` for one that is set at run time, or `override` for one that is set when the pipeline is
+    /// created.
     Number(Numeric),
     /// Several numbers, separated by commas.
     List {
@@ -56,7 +57,7 @@ pub enum OptionKind {
         /// Range of each.
         of: Numeric,
     },
-    /// `true` or `false`.
+    /// `true` or `false`, or `override`.
     Flag,
 }
 
@@ -152,7 +153,9 @@ impl Evaluator<'_> {
             };
             let (chosen_value, value) = match parse::setting_value(&info, settings) {
                 Ok(parsed) => {
-                    let value = self.value_of(field, &info, &parsed)?;
+                    // The options of earlier structures have been inserted.
+                    let id = chosen.iter().len() as u32;
+                    let value = self.value_of(field, &info, &parsed, id)?;
                     (parsed, value)
                 }
                 Err(errors) => {
@@ -168,8 +171,9 @@ impl Evaluator<'_> {
         Ok(Value::structure(ty, values))
     }
 
-    /// Value of an option in the kernel. A setting equal to the default shares its node, so that both emit the same text.
-    fn value_of(&mut self, field: &OptionField, info: &OptionInfo, value: &OptionValue) -> Eval {
+    /// Value of an option in the kernel, whose position is `id`. A setting equal to the default shares its node, so
+    /// that both emit the same text.
+    fn value_of(&mut self, field: &OptionField, info: &OptionInfo, value: &OptionValue, id: u32) -> Eval {
         if *value == info.default {
             let default = self.eval_expr(&field.default)?;
             return self.ascribe_type(default, Some(&field.ty), field.default.span);
@@ -195,6 +199,28 @@ impl Evaluator<'_> {
                 Type::scalar(of.scalar),
                 info.default.number(),
             )),
+            (OptionValue::Override(default), kind) => {
+                let (ty, range, default) = match (kind, &**default) {
+                    (OptionKind::Number(of), OptionValue::Number(default)) => (
+                        Type::scalar(of.scalar),
+                        of.min.zip(of.max).map(|(low, high)| [low, high].map(canonical_number)),
+                        *default,
+                    ),
+                    (OptionKind::Flag, OptionValue::Flag(on)) => (Type::BOOL, None, f64::from(u8::from(*on))),
+                    _ => return Err(self.bad_type(field)),
+                };
+                let name = self.option_name(&field.name);
+                let overrides = &mut self.builder.graph_mut().overrides;
+                overrides.push(Override {
+                    name,
+                    id,
+                    ty,
+                    default,
+                    range,
+                });
+                let index = overrides.len() as u32 - 1;
+                Ok(Value::Node(self.builder.add(Op::Override(index), Vec::new(), ty)))
+            }
             _ => Err(self.bad_type(field)),
         }
     }
@@ -221,8 +247,8 @@ impl Evaluator<'_> {
     }
 }
 
-/// Canonical form of a number, so that all spellings of one `f32` or integer agree: the shortest decimal, or all digits of
-/// a whole number.
+/// Canonical form of a number, so that all spellings of one `f32` or integer agree: the shortest decimal, or all digits
+/// of a whole number.
 fn canonical_number(number: f64) -> f64 {
     if number.fract() == 0.0 && number.abs() < 1e15 {
         // -0 + 0 is 0.

@@ -3,11 +3,30 @@
 use super::{Numeric, OptionInfo, OptionKind, canonical_number};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::ir::Scalar;
-use crate::shorten;
+use crate::{is_close, shorten};
 use straightline_kernels::{OptionText, OptionValue, OptionValues};
 
 /// Keyword for an option that is set at run time.
 const UNIFORM: &str = "uniform";
+
+/// Keyword for an option that is set when the pipeline is created; its default may follow in parentheses.
+const OVERRIDE: &str = "override";
+
+/// Returns the text that makes an option an override, with the default `value` if one is set.
+pub fn override_text(value: Option<&str>) -> String {
+    match value {
+        Some(value) if override_default(value).is_some() => value.to_owned(),
+        value => format!("{OVERRIDE}({})", value.unwrap_or_default()),
+    }
+}
+
+/// Default in the text of an override, empty for that of the declaration; `None` for any other text.
+fn override_default(text: &str) -> Option<&str> {
+    match text.strip_prefix(OVERRIDE)? {
+        "" => Some(""),
+        rest => rest.strip_prefix('(')?.strip_suffix(')'),
+    }
+}
 
 /// Values of all options under `settings`, pairs of name and text.
 ///
@@ -40,9 +59,10 @@ pub fn parse_settings(
 pub(in crate::eval) fn unknown_settings(kernel: &str, names: &[&str], settings: &[OptionText]) -> Vec<Diagnostic> {
     let unknown = settings.iter().filter(|(name, _)| !names.contains(&name.as_str()));
     let errors = unknown.map(|(name, _)| {
-        let help = match names.is_empty() {
-            true => "it has no options".to_owned(),
-            false => format!("its options are {}", names.join(", ")),
+        let help = match names.iter().find(|known| is_close(name, known)) {
+            Some(close) => format!("did you mean `{close}`?"),
+            None if names.is_empty() => "it has no options".to_owned(),
+            None => format!("its options are {}", names.join(", ")),
         };
         Diagnostic::new(Code::UnknownOption, format!("`{kernel}` has no option `{name}`")).help(help)
     });
@@ -82,6 +102,11 @@ fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Box<Diagnostic>> 
         let what = format!("`{}` is not a value of the option `{}`", shorten(text), info.name);
         Box::new(Diagnostic::new(Code::OptionValue, what).help(allowed))
     };
+    let is_choice =
+        |name: &str| matches!(&info.kind, OptionKind::Choice(all) if all.iter().any(|(known, _)| known == name));
+    if let Some(default) = override_default(text).filter(|_| !is_choice(text)) {
+        return parse_override(info, default);
+    }
     match &info.kind {
         OptionKind::Flag => match text {
             "true" => Ok(OptionValue::Flag(true)),
@@ -119,6 +144,28 @@ fn parse(info: &OptionInfo, text: &str) -> Result<OptionValue, Box<Diagnostic>> 
                 .map(|part| of.parse(part).ok_or_else(|| refuse(part, of.allowed_help())));
             Ok(OptionValue::Numbers(numbers.collect::<Result<_, _>>()?))
         }
+    }
+}
+
+/// Parses the default of an option that is an override; empty for that of the declaration.
+fn parse_override(info: &OptionInfo, default: &str) -> Result<OptionValue, Box<Diagnostic>> {
+    let refuse = |why: &str, help: &str| {
+        let what = format!("the option `{}` cannot be overridden: it is {why}", info.name);
+        Err(Box::new(Diagnostic::new(Code::CannotOverride, what).help(help)))
+    };
+    let constant = "only a number or a boolean can: leave it out of `override`, and set its value with `set`";
+    let default = match (&info.kind, default) {
+        (OptionKind::Choice(_), _) => return refuse("an enum", constant),
+        (OptionKind::List { .. }, _) => return refuse("a list", constant),
+        (_, "") => info.default.clone(),
+        (_, text) => parse(info, text)?,
+    };
+    match default {
+        OptionValue::Uniform => refuse(
+            "a uniform",
+            "keep one of them: `uniform` for values that change from frame to frame, `override` for settings",
+        ),
+        default => Ok(OptionValue::Override(Box::new(default))),
     }
 }
 

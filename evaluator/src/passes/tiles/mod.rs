@@ -348,6 +348,7 @@ pub(super) fn taken_names(graph: &Graph) -> BTreeSet<String> {
     let names = names.chain(graph.buffers.iter().map(|b| &b.name));
     let names = names.chain(graph.samplers.iter().map(|s| &s.name));
     let names = names.chain(graph.uniforms.iter().map(|u| &u.name));
+    let names = names.chain(graph.overrides.iter().map(|o| &o.name));
     let names = names.chain(graph.varyings.iter().map(|v| &v.name));
     names.chain(graph.written_targets().map(|p| &p.name)).cloned().collect()
 }

@@ -5,8 +5,8 @@ use super::{Given, Place, Texel, Text, World, computed};
 use crate::random::forms::{FORMS, PolicyForm, is_internal, same};
 use std::collections::BTreeMap;
 use std::fmt;
-use straightline_codegen::Kernel;
-use straightline_codegen::diagnostic::Errors;
+use straightline_codegen::diagnostic::{Code, Errors};
+use straightline_codegen::{Kernel, OptionKind, Settings};
 
 /// Difference between a form of a kernel and rustc's program.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +84,8 @@ pub struct Tally {
     pub pixels: u64,
     /// Elements of buffers that were compared, of those that the native program has changed.
     pub written: u64,
+    /// Values that were compared with an option overridden.
+    pub overridden: u64,
     /// Pixels at which the native program panics, so that they are not compared.
     pub panics: u64,
     /// Pixels that are not a number in every component, so that they show little.
@@ -102,6 +104,7 @@ impl Tally {
         self.compared += other.compared;
         self.pixels += other.pixels;
         self.written += other.written;
+        self.overridden += other.overridden;
         self.panics += other.panics;
         self.empty += other.empty;
         self.works.merge(&other.works);
@@ -139,12 +142,12 @@ pub enum NotRun {
 ///
 /// The generator refuses it, or the interpreter cannot run it.
 pub fn interpret(kernel: &Kernel, form: PolicyForm, world: &World) -> Result<Given, NotRun> {
-    worked(kernel, form, world).map(|(given, _)| given)
+    worked(kernel, &form.settings(), world).map(|(given, _)| given)
 }
 
 /// As [`interpret`], with the work of compiling the kernel.
-fn worked(kernel: &Kernel, form: PolicyForm, world: &World) -> Result<(Given, u64), NotRun> {
-    let compiled = kernel.compile(&form.settings()).map_err(NotRun::Refused)?;
+fn worked(kernel: &Kernel, settings: &Settings, world: &World) -> Result<(Given, u64), NotRun> {
+    let compiled = kernel.compile(settings).map_err(NotRun::Refused)?;
     let given = computed::<f32>(&compiled, world).map_err(NotRun::Failed)?;
     Ok((given, compiled.work))
 }
@@ -167,7 +170,7 @@ fn is_of_size(message: &str) -> bool {
 pub fn compare(text: &Text, world: &World, native: &Given, tally: &mut Tally) -> Result<(), Difference> {
     let kernel = Kernel::from_text("random.rs", &text.file(), "k");
     for form in FORMS {
-        let run = || worked(&kernel, *form, world);
+        let run = || worked(&kernel, &form.settings(), world);
         let found = std::panic::catch_unwind(std::panic::AssertUnwindSafe(run));
         let found = match found.map_err(|panic| Difference::Panicked(said(&*panic)))? {
             Ok((found, work)) => {
@@ -187,18 +190,7 @@ pub fn compare(text: &Text, world: &World, native: &Given, tally: &mut Tally) ->
             }
             Err(NotRun::Failed(why)) => return Err(Difference::Broken(*form, why)),
         };
-        let pairs = native
-            .pairs(&found, world)
-            .map_err(|why| Difference::Broken(*form, why))?;
-        for (place, expected, found) in pairs {
-            if !same(expected, found) {
-                return Err(Difference::Value {
-                    form: *form,
-                    place,
-                    expected,
-                    found,
-                });
-            }
+        for (place, expected, _) in equal_pairs(*form, native, &found, world)? {
             match place {
                 Place::Pixel(..) => {
                     tally.pixels += 1;
@@ -209,8 +201,48 @@ pub fn compare(text: &Text, world: &World, native: &Given, tally: &mut Tally) ->
         }
         tally.panics += native.pixels.iter().filter(|pixel| pixel.is_none()).count() as u64;
     }
+    compare_overridden(&kernel, world, native, tally)?;
     tally.compared += 1;
     Ok(())
+}
+
+/// Compares forms in which options are overridden, at their defaults. Some kernels need an option as a constant.
+fn compare_overridden(kernel: &Kernel, world: &World, native: &Given, tally: &mut Tally) -> Result<(), Difference> {
+    let form = FORMS[1];
+    for option in kernel.options().unwrap_or_default() {
+        if !matches!(option.kind, OptionKind::Number(_) | OptionKind::Flag) {
+            continue;
+        }
+        let settings = form.settings().override_options([option.name]);
+        match worked(kernel, &settings, world) {
+            Ok((found, _)) => tally.overridden += equal_pairs(form, native, &found, world)?.len() as u64,
+            Err(NotRun::Refused(errors)) if errors.first_code() == Some(Code::CannotOverride) => {}
+            Err(NotRun::Refused(errors)) => return Err(Difference::Internal(form, errors.to_string())),
+            Err(NotRun::Failed(why)) => return Err(Difference::Broken(form, why)),
+        }
+    }
+    Ok(())
+}
+
+/// Values of the native program with those of a form, which are the same.
+fn equal_pairs(
+    form: PolicyForm,
+    native: &Given,
+    found: &Given,
+    world: &World,
+) -> Result<Vec<(Place, Texel, Texel)>, Difference> {
+    let pairs = native
+        .pairs(found, world)
+        .map_err(|why| Difference::Broken(form, why))?;
+    match pairs.iter().find(|(_, expected, found)| !same(*expected, *found)) {
+        Some((place, expected, found)) => Err(Difference::Value {
+            form,
+            place: place.clone(),
+            expected: *expected,
+            found: *found,
+        }),
+        None => Ok(pairs),
+    }
 }
 
 fn said(panic: &(dyn std::any::Any + Send)) -> String {
