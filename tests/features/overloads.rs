@@ -104,6 +104,17 @@ impl Metric for f32 {
     }
 }
 
+/// Methods that numbers have, and vectors have not.
+trait Slope {
+    fn tan(self) -> Self;
+}
+
+impl Slope for Vec2 {
+    fn tan(self) -> Vec2 {
+        self * 0.5
+    }
+}
+
 fn between<T: Metric>(a: T, b: T) -> f32 {
     a.distance(b)
 }
@@ -157,6 +168,7 @@ pub fn methods_of_a_type_and_a_trait(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 
     let here = color.load(pixel);
     let own = vec4(here.xy().distance(here.zw()), here.xy().length(), here.x.fract(), here.xy().fract().y);
     let generic = vec4(between(here.xy(), here.zw()), between(here.x, here.y), part(here.xy()), part(here.z));
+    let generic = generic + here.xy().tan().extend(0.0).extend(1.0);
     let square = Square::new(here.x);
     let shapes = vec4(square.area(), dynamic(&square), opaque(&square), Shape::area(&square));
     let doubled: Square = made(here.y);

@@ -89,6 +89,13 @@ pub fn has_method(ty: Type, name: &str) -> bool {
     method_lists(ty).iter().any(|list| list.contains(&name))
 }
 
+/// Methods that numbers have in Rust, and vectors of them only here.
+#[rustfmt::skip]
+const SCALARS_ONLY: &[&str] = &[
+    "acos", "asin", "atan", "atan2", "cbrt", "cosh", "count_ones", "leading_zeros", "pow", "powi", "reverse_bits",
+    "round_ties_even", "sinh", "tan", "tanh", "trailing_zeros",
+];
+
 /// Returns whether numbers or vectors have an inherent method of a name, which takes precedence over one of a trait.
 pub fn is_inherent(ty: &str, name: &str) -> bool {
     let value = match (ty, crate::front::tree::vector_named(ty)) {
@@ -100,5 +107,6 @@ pub fn is_inherent(ty: &str, name: &str) -> bool {
         ("bool", _) => Type::BOOL,
         _ => return false,
     };
-    has_method(value, name) || super::std::has_function(ty, name)
+    let is_of_vectors = value.component_count() == 1 || !SCALARS_ONLY.contains(&name);
+    is_of_vectors && has_method(value, name) || super::std::has_function(ty, name)
 }
