@@ -55,7 +55,6 @@ impl Pipeline {
                         compilation_options: wgpu::PipelineCompilationOptions {
                             constants: &borrow_constants(constants),
                             zero_initialize_workgroup_memory: !fills_memory,
-                            ..wgpu::PipelineCompilationOptions::default()
                         },
                         cache: None,
                     })
