@@ -27,7 +27,7 @@ fn case(knob: &Knob) -> (&'static str, ShaderSpec) {
     let hlsl = |spec: ShaderSpec| spec.targets([straightline_codegen::emit::Target::Hlsl]);
     let (kernel, base) = match knob.name {
         "transport" => ("quad_convolution", ShaderSpec::new()),
-        "set" | "repeat-loads" | "enable-subgroups" => ("sraa", ShaderSpec::new()),
+        "set" | "override" | "repeat-loads" | "enable-subgroups" => ("sraa", ShaderSpec::new()),
         "texels" | "global-uniforms" => ("kernels/filters/gaussian.rs", hlsl(function())),
         "register" => ("kernels/filters/gaussian.rs", hlsl(ShaderSpec::new())),
         "accept-loss" => (
