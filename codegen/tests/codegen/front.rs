@@ -186,7 +186,11 @@ fn what_would_be_misread_is_refused() {
             "let s = S { y: 1.0 }; Vec4::splat(1.0)",
             "defined twice",
         ),
-        ("", "assert!(true, \"a {x}\"); Vec4::splat(1.0)", "a message with values"),
+        (
+            "",
+            "assert!(true, \"a {x}\"); Vec4::splat(1.0)",
+            "a message with values",
+        ),
         ("", "let a; Vec4::splat(a)", "never given a value"),
         ("", "let a: f32; if a == 1.0 {} Vec4::splat(a)", "never given a value"),
     ];

@@ -23,6 +23,7 @@ mod items;
 mod kernels;
 mod literal;
 mod looping;
+mod macros;
 pub mod methods;
 pub mod name;
 mod names;

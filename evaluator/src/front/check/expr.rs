@@ -2,7 +2,8 @@
 
 use super::super::cfg::Carrier;
 use super::super::choice::MatchesSyntax;
-use super::super::expr::{COUNTS_LINKS, DEPTH, is_assertion};
+use super::super::expr::{COUNTS_LINKS, DEPTH};
+use super::super::macros::is_assertion;
 use super::Check;
 use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{TokenStream, TokenTree};
