@@ -1,7 +1,7 @@
 //! Chains of passes on a device.
 
 use super::gpu::Uploaded;
-use super::gpu::override_options;
+use super::parameters::override_options;
 use super::{Bench, ExecuteError, Inputs, Work, Written, picture_size};
 use std::time::Duration;
 use straightline_codegen::chain::EmittedChain;

@@ -1,15 +1,14 @@
 //! Emitted shaders on a device: images up, the pass, the picture down.
 
 use super::convert;
+use super::parameters::{override_options, uniform_values};
 use super::textures::integers_of;
 use super::{Address, Comparison, ExecuteError, Inputs, SamplerState, Written, find_entry, has_input};
 use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::Emitted;
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{
-    Binding, BindingKind, BufferType, Element, Manifest, OverrideType, SamplerType, UniformField,
-};
+use straightline_manifest::{Binding, BindingKind, BufferType, Element, Manifest, SamplerType, UniformField};
 use straightline_runtime::{
     BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
     UniformValue,
@@ -635,37 +634,4 @@ impl Bench {
             message: e.to_string(),
         })
     }
-}
-
-/// Options of a pass with the values that `inputs` have for the overrides of a shader, among the uniforms.
-pub fn override_options(manifest: &Manifest, inputs: &Inputs) -> PassOptions {
-    manifest.overrides.iter().fold(PassOptions::default(), |options, of| {
-        let value = find_entry(&inputs.uniforms, &of.name).and_then(|numbers| numbers.first().copied());
-        match (value, of.ty) {
-            (None, _) => options,
-            (Some(value), OverrideType::F32) => options.override_option(&of.name, value as f32),
-            (Some(value), OverrideType::I32) => options.override_option(&of.name, value as i32),
-            (Some(value), OverrideType::U32) => options.override_option(&of.name, value as u32),
-            (Some(value), OverrideType::Bool) => options.override_option(&of.name, value != 0.0),
-        }
-    })
-}
-
-/// The uniforms of a shader that `inputs` say; of the region's none, which is stated with each that is bound.
-fn uniform_values(bindings: &[Binding], inputs: &Inputs) -> Vec<(String, UniformValue)> {
-    let mut uniforms = Vec::new();
-    for binding in bindings {
-        if let BindingKind::Uniform { fields, .. } = &binding.kind
-            && !binding.is_region()
-        {
-            for field in fields {
-                if field.frame_size {
-                    uniforms.push((field.name.clone(), UniformValue::from(inputs.size.to_array())));
-                } else if let Some(numbers) = find_entry(&inputs.uniforms, &field.name) {
-                    uniforms.push((field.name.clone(), convert::uniform_value(field.ty, numbers)));
-                }
-            }
-        }
-    }
-    uniforms
 }
