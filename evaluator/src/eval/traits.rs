@@ -128,9 +128,7 @@ impl<'a> Evaluator<'a> {
             return Ok(false);
         };
         let (of, name) = (format!("{of}Assign"), format!("{name}_assign"));
-        let library = self.library;
-        let names = self.type_names(&old);
-        let keys: Vec<&str> = names.iter().flat_map(|ty| library.trait_keys(ty, &of, &name)).collect();
+        let keys = self.keys_of_operator(&old, &of, &name);
         let values = vec![Value::Ref(Rc::new(place.clone())), value.clone()];
         let Some(key) = self.find_overload(&keys, &values, span)? else {
             return Ok(false);

@@ -16,6 +16,7 @@ mod operators;
 mod order;
 mod pattern;
 mod places;
+mod qualified;
 mod shapes;
 mod signature;
 mod textures;

@@ -3,7 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Expr, Function, Generic, qualify_name, split_qualified};
+use crate::front::tree::{Function, Generic};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
 
@@ -199,7 +199,7 @@ impl<'l> Checker<'l> {
     }
 
     /// The traits that a type parameter has, or that a `dyn` names.
-    fn traits_of(&self, parameter: &str) -> Vec<String> {
+    pub fn traits_of(&self, parameter: &str) -> Vec<String> {
         if let Some(traits) = self.bounds.and_then(|bounds| bounds.get(parameter)) {
             return traits.clone();
         }
@@ -208,29 +208,6 @@ impl<'l> Checker<'l> {
             .flat_map(|traits| traits.split(" + "))
             .map(str::to_owned)
             .collect()
-    }
-
-    /// The trait of a type parameter that declares a function, and the function.
-    pub fn declared_of(&self, parameter: &str, name: &str) -> Option<(&'l str, &'l Function)> {
-        let library = self.library;
-        let traits = self.traits_of(parameter);
-        traits.iter().find_map(|of| library.declaring_trait(of, name))
-    }
-
-    /// Keys of the functions that a name of a type means. A function of the type itself precedes those of traits. In a default
-    /// function of a trait, of which nothing but this trait is known, `Self` has the trait's functions.
-    pub fn keys_of(&self, ty: &str, name: &str) -> Vec<&'l str> {
-        let library = self.library;
-        if let Some((own, of)) = self.default_of.filter(|(own, _)| *own == ty)
-            && let Some((of, _)) = library.declaring_trait(of, name)
-        {
-            return library.trait_keys(own, of, name);
-        }
-        let mut keys = library.method_keys(ty, name);
-        if crate::front::methods::is_inherent(ty, name) {
-            keys.retain(|key| split_qualified(key).is_none());
-        }
-        keys
     }
 
     /// The type of a constant of a type parameter.
@@ -305,22 +282,6 @@ impl<'l> Checker<'l> {
                 .help(format!("bound it by a trait that does: `{parameter}: Trait`")),
             );
         }
-    }
-
-    /// A call of a function of a type parameter's trait. Evaluation finds the function of this trait for the parameter's type.
-    pub fn of_parameter(
-        &mut self,
-        parameter: &str,
-        (of, function): (&'l str, &'l Function),
-        name: &str,
-        receiver: Option<&Ty>,
-        args: &'l [Expr],
-        span: Span,
-    ) -> Ty {
-        let mut given = self.instantiate_function(function, &[]);
-        given.insert("Self".to_owned(), Ty::Param(parameter.to_owned()));
-        self.methods.insert(span, qualify_name(parameter, of, name));
-        self.with_given(function, given, receiver, args, span)
     }
 
     /// Returns the type of the result of an operator's trait for two types; `None` if neither is a structure or an enum with that trait.
