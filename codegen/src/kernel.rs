@@ -16,6 +16,7 @@ use straightline_evaluator::front::testing::Test;
 use straightline_evaluator::front::{self, Library, Parsed};
 use straightline_evaluator::infer;
 use straightline_evaluator::limits::Meter;
+use straightline_evaluator::passes::clean_graph;
 use straightline_kernels::{OptionText, OptionValues, Preset};
 
 /// Name of the setting that stands for a set of options.
@@ -414,8 +415,8 @@ impl Kernel {
     ///
     /// All errors of the kernel without settings.
     pub fn overridable(&self, option: &str) -> Result<Overridable, Errors> {
-        let compiled = self.compile(&Settings::new().override_options([option]));
-        Overridable::from_outcome(compiled.map(|compiled| reads_override(&compiled.graph)))
+        let start = self.evaluate(&Settings::new().override_options([option]));
+        Overridable::from_outcome(start.map(|start| reads_override(&clean_graph(&start.graph))))
     }
 
     /// Names of the options whose values differ from those of a kernel without settings.
