@@ -43,6 +43,10 @@ fn every_form_agrees_with_rustc() {
         "most kernels are taken: {total:?}"
     );
     assert!(total.empty * 10 < total.pixels, "most pixels are numbers: {total:?}");
+    assert!(
+        total.overridden > total.pixels / 100,
+        "options are overridden: {total:?}"
+    );
     // Work is an oracle beside bits.
     if let Some(outlier) = total.works.outliers().first() {
         panic!("{}\n{outlier}", make(outlier.seed, Features::all()));

@@ -3,9 +3,11 @@
 
 use glam::{Vec4, uvec2};
 use straightline_bench::execute::{Inputs, interpret_kernel, override_options, test_inputs};
+use straightline_codegen::chain::{Chain, ChainSpec, EmittedChain};
 use straightline_codegen::emit::{Emitted, Target};
-use straightline_codegen::{Compiled, Kernel, Settings, Stage};
+use straightline_codegen::{Compiled, Format, Kernel, Settings, ShaderSpec, Stage};
 use straightline_kernels::prelude::Frame;
+use straightline_runtime::PassOptions;
 use straightline_tests::sraa::surfaces;
 use straightline_tests::{compilers, passthrough};
 
@@ -173,6 +175,47 @@ fn sraa_by_overrides_is_that_by_constants() {
             .unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(bits(&found[0].frame()), bits(&expected[0].frame()), "{tau}");
     }
+}
+
+/// A chain sets an override in each pass that has it.
+#[test]
+fn chains_take_overrides() {
+    const CHAIN: &str = "
+options! {
+    pub struct Grade {
+        /// Weight.
+        pub gain: f32 [0.0..=8.0] = 2.0,
+    }
+}
+
+pub fn graded(cfg: &Grade, color: &Frame<Vec4>) -> Frame<Vec4> {
+    let scaled: Frame<Vec4> = draw(color.size(), |pixel| color.load(pixel) * cfg.gain);
+    draw(color.size(), |pixel| (scaled.load(pixel) - color.load(pixel)) * cfg.gain)
+}";
+    let bench = passthrough::bench().unwrap_or_else(|e| panic!("{e}"));
+    let emit = |spec: ShaderSpec| {
+        let spec = ChainSpec::from(spec.format(Format::Rgba32Float)).pictures(Format::Rgba32Float);
+        let compiled = Chain::from_text("graded.rs", CHAIN, "graded").compile(&spec);
+        let compiled = compiled.unwrap_or_else(|e| panic!("{e}"));
+        let emitted = compiled.emit().unwrap_or_else(|e| panic!("{e}"));
+        (compiled, emitted)
+    };
+    let (overridden, emitted) = emit(ShaderSpec::new().override_options(["gain"]));
+    let inputs = test_inputs(&overridden.inputs_graph(), uvec2(13, 9));
+    for gain in [2.0, 0.0, 6.5] {
+        let (_, constant) = emit(ShaderSpec::new().set("gain", gain));
+        let run = |emitted: &EmittedChain, inputs: &Inputs| {
+            let written = bench
+                .run_chain(emitted, inputs)
+                .unwrap_or_else(|e| panic!("{gain}: {e}"));
+            bits(&written[0].frame())
+        };
+        let found = run(&emitted, &with_values(&inputs, &[("gain", gain)]));
+        assert_eq!(found, run(&constant, &inputs), "{gain}");
+    }
+    let options = PassOptions::default().override_option("gian", 1.0);
+    let refused = bench.create_chain(&emitted, &options).expect_err("no pass has it");
+    assert!(refused.to_string().contains("gian"), "{refused}");
 }
 
 #[test]
