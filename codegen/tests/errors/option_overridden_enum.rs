@@ -7,9 +7,9 @@ enum Shape {
 
 options! {
     pub struct Cfg {
-        /// What.
+        /// Shape of the window.
         pub shape: Shape = Shape::Round,
-        /// Which.
+        /// Weights from left to right.
         pub weights: [f32; 3] = [1.0, 2.0, 1.0],
     }
 }
