@@ -113,6 +113,11 @@ impl Bound {
         self.uniforms.write_value(&self.plan, queue, name, &value.into())
     }
 
+    /// Returns whether the shader has a uniform of this name.
+    pub fn has_uniform(&self, name: &str) -> bool {
+        self.plan.has_uniform(name)
+    }
+
     /// Sets all uniforms at once. `bytes` is the uniform struct in the buffer's layout: little-endian, each field at the
     /// manifest's offset, and as long as the manifest's size, padding included. (Several structs follow each other in
     /// binding order.)

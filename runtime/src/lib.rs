@@ -71,6 +71,7 @@ mod module;
 mod options;
 mod overrides;
 mod pass;
+mod passes;
 mod pipeline;
 #[doc(hidden)]
 pub mod plan;
@@ -91,6 +92,7 @@ pub use error::{BufferProblem, ChainProblem, Error, Names, SamplerProblem, ViewP
 pub use options::{BindOptions, PassOptions};
 pub use overrides::OverrideValue;
 pub use pass::Pass;
+pub use passes::Passes;
 pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quads};
 pub use region::Region;
 pub use resource::{Resource, ResourceKind};

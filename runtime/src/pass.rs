@@ -82,6 +82,12 @@ impl Pass {
         self.plan.inputs.iter().map(|input| input.name.as_ref())
     }
 
+    /// Returns whether the shader has a uniform of this name, so that it can be bound with a value
+    /// ([`BindOptions::uniform`](crate::BindOptions::uniform)).
+    pub fn has_uniform(&self, name: &str) -> bool {
+        self.plan.has_uniform(name)
+    }
+
     /// Returns whether the shader was generated for regions, so that a rectangle can be bound ([`BindOptions::region`](crate::BindOptions::region)).
     pub fn filters_regions(&self) -> bool {
         self.plan.region.is_some()

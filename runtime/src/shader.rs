@@ -14,6 +14,8 @@ pub struct Shader<'a> {
     pub(crate) plan: Plan,
     pub(crate) wgsl: &'a str,
     pub(crate) loops: Loops,
+    /// [`text_hash`] of the text.
+    pub(crate) hash: u64,
 }
 
 impl Shader<'static> {
@@ -25,7 +27,12 @@ impl Shader<'static> {
             text_hash(wgsl) == hash,
             "the WGSL was changed since its bindings were generated: generate both again"
         );
-        Shader { plan, wgsl, loops }
+        Shader {
+            plan,
+            wgsl,
+            loops,
+            hash,
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::plan::Plan;
 use crate::shader::{Loops, LoopsEnd};
 use crate::{Draw, DrawOptions, Pass, PassOptions, Shader};
-use straightline_manifest::{Manifest, SCHEMA, hash_of_text};
+use straightline_manifest::{Manifest, SCHEMA, hash_of_text, text_hash};
 use wgpu::Device;
 
 impl<'a> Shader<'a> {
@@ -30,7 +30,13 @@ impl<'a> Shader<'a> {
             Ok(()) => Loops::End(proven_loops_end()),
             Err(problem) => Loops::Unproven(problem.into()),
         };
-        Ok(Shader { plan, wgsl, loops })
+        let hash = text_hash(wgsl);
+        Ok(Shader {
+            plan,
+            wgsl,
+            loops,
+            hash,
+        })
     }
 
     /// [`from_manifest`](Self::from_manifest) for a manifest as it lies on disk.

@@ -1,6 +1,6 @@
 //! A kernel with the description of its shader, for a `build.rs`.
 
-use super::{ShaderSpec, Target};
+use super::{ShaderSpec, Target, Variants};
 use crate::chain::Fuse;
 use std::path::{Path, PathBuf};
 use straightline_kernels::KernelOptions;
@@ -19,6 +19,8 @@ pub struct KernelConfig {
     pub(crate) fuse: Fuse,
     /// Format of the pictures between the passes of a chain.
     pub(crate) pictures: Option<Format>,
+    /// Options with several values.
+    pub(crate) variants: Variants,
     /// Additional files with functions that the kernel calls.
     pub(crate) sources: Vec<PathBuf>,
 }
@@ -40,6 +42,7 @@ impl KernelConfig {
             spec: ShaderSpec::new(),
             fuse: Fuse::None,
             pictures: None,
+            variants: Variants::default(),
             sources: Vec::new(),
         }
     }
@@ -114,6 +117,22 @@ impl KernelConfig {
     /// ```
     pub fn source(mut self, path: impl AsRef<Path>) -> Self {
         self.sources.push(path.as_ref().to_owned());
+        self
+    }
+
+    /// Generates a shader for each combination of some options' values. Shaders with the same text are written once.
+    ///
+    /// The module then has an enum for each of these options, a structure `Variant` of their values with its shader, and
+    /// `Passes`, which makes the pass of a variant when it is first asked for. The table of sizes is `NAME.variants.txt`.
+    ///
+    /// ```
+    /// # use straightline_codegen::Config;
+    /// let shaders = Config::new().kernel("sraa", |k| {
+    ///     k.variants(|v| v.set("pattern", ["latin4", "latin16"]).set("mask", ["none", "branch"]))
+    /// });
+    /// ```
+    pub fn variants(mut self, variants: impl FnOnce(Variants) -> Variants) -> Self {
+        self.variants = variants(self.variants);
         self
     }
 

@@ -23,6 +23,7 @@ mod register;
 mod target;
 mod texels;
 mod value;
+mod variants;
 
 pub use kernel_config::KernelConfig;
 pub(crate) use kernel_config::Source;
@@ -33,6 +34,7 @@ pub(crate) use register::{LAST_BINDING, LAST_GROUP};
 pub use target::Target;
 pub use texels::Texels;
 pub use value::Arity;
+pub use variants::Variants;
 
 use straightline_evaluator::eval::override_text;
 use straightline_evaluator::is_close;

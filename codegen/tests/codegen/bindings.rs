@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use straightline_codegen::emit::{self, Module, Target};
+use straightline_codegen::emit::{self, Module, Modules, Target};
 use straightline_codegen::{Config, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
 
 /// As much of the runtime as bindings name, beside what their constants are made of, which is the runtime's own.
@@ -40,6 +40,11 @@ impl From<i32> for OverrideValue { fn from(_: i32) -> Self { OverrideValue } }
 impl From<u32> for OverrideValue { fn from(_: u32) -> Self { OverrideValue } }
 impl From<bool> for OverrideValue { fn from(_: bool) -> Self { OverrideValue } }
 impl PassOptions { pub fn override_option(self, _: &str, _: impl Into<OverrideValue>) -> Self { self } }
+#[derive(Debug)] pub struct Passes;
+impl Passes {
+    pub fn new(_: &wgpu::Device, _: PassOptions) -> Passes { Passes }
+    pub fn get(&mut self, _: &Shader<'_>) -> Result<&Pass, Error> { Ok(&Pass) }
+}
 #[derive(Debug)] pub struct Pass;
 impl Pass {
     pub fn from_shader(_: &wgpu::Device, _: &Shader<'_>, _: &PassOptions) -> Result<Pass, Error> { Ok(Pass) }
@@ -177,7 +182,11 @@ fn compiles_with(folder: &Path, file: &str, text: &str, settings: &Settings) -> 
     }
     std::fs::write(
         folder.join(file),
-        emit::render_bindings(&[module], &[]).map_err(|e| e.to_string())?,
+        emit::render_bindings(&Modules {
+            shaders: vec![module],
+            ..Default::default()
+        })
+        .map_err(|e| e.to_string())?,
     )
     .expect("written");
     rustc(folder, file, &BINDINGS);
@@ -255,6 +264,71 @@ fn bindings_compile_with_overrides_of_every_type() {
         written.contains("tau: -0.5") && written.contains("range: Some([-1f64, 1000000000f64])"),
         "{written}"
     );
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// Options of every type vary, under names that Rust has for other things, with values that are no names.
+#[test]
+fn bindings_of_variants_compile() {
+    let folder = folder("variants");
+    runtime(&folder);
+    let text = "
+        options! {
+            /// Options.
+            pub struct Cfg {
+                /// One.
+                pub tau: f32 [-1.0..=1.0e9] = -0.5,
+                /// Two.
+                pub result: i32 = 1,
+                /// Three.
+                pub on: bool = true,
+                /// Four.
+                pub variant: Kind = Kind::DepthNormals,
+            }
+        }
+        /// Kinds.
+        pub enum Kind {
+            /// A.
+            DepthNormals,
+            /// B.
+            Self_,
+        }
+        /// A filter.
+        pub fn k(cfg: &Cfg, color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+            let gain = if cfg.on { cfg.tau } else { cfg.result as f32 };
+            match cfg.variant {
+                Kind::DepthNormals => color.load(pixel) * gain,
+                Kind::Self_ => color.load(pixel) + gain,
+            }
+        }";
+    std::fs::write(folder.join("k.rs"), text).expect("written");
+    let config = Config::new().out_dir(&folder).file_with(folder.join("k.rs"), |k| {
+        k.variants(|v| {
+            v.set("tau", [-0.5, 0.5, 1e7])
+                .set("result", [-1, 1])
+                .set("on", [true, false])
+                .set("variant", ["depth-normals", "self_"])
+        })
+    });
+    config.compile().unwrap_or_else(|e| panic!("{e}"));
+    rustc(&folder, "straightline.rs", &BINDINGS);
+    let written = std::fs::read_to_string(folder.join("straightline.rs")).expect("written");
+    // What is not read decides nothing: with `on`, `result`; without it, `tau`.
+    for part in [
+        "24 combinations of options, 10 shaders",
+        "pub enum ResultValue {",
+        "pub enum VariantValue {",
+        "VMinus0_5,",
+        "pub on: bool,",
+        "SelfValue,",
+        "pub const ALL: [Variant; 24]",
+    ] {
+        assert!(written.contains(part), "{part}\n{written}");
+    }
+    let table = std::fs::read_to_string(folder.join("k.variants.txt")).expect("written");
+    assert!(table.starts_with("k: 24 combinations, 10 shaders, "), "{table}");
+    let shared = "tau=-0.5 result=1 on=true variant=depth-normals   k_minus_0_5_minus_1_true_depth_normals ";
+    assert!(table.contains(shared), "{table}");
     std::fs::remove_dir_all(&folder).expect("removed");
 }
 

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::io;
 use std::path::PathBuf;
-use straightline_codegen::KernelConfig;
+use straightline_codegen::config::{KernelConfig, Variants};
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Config, Form, Manifest, Origin, Stage, Transport, Unroll};
 
@@ -50,6 +50,26 @@ fn settings_that_would_be_ignored_are_refused() {
             "{error}"
         );
     }
+}
+
+#[test]
+fn variants_that_cannot_be_are_refused_by_their_options() {
+    let refused = |vary: fn(Variants) -> Variants| {
+        said(
+            &Config::new()
+                .kernel("sraa", |k| k.set("pattern", "latin4").variants(vary))
+                .out_dir(folder("variants")),
+        )
+    };
+    let error = refused(|v| v.set("metric", ["depth", "dept"]).set("mask", ["none", "branch"]));
+    assert!(error.starts_with("with metric=dept mask=none:\nerror[E0"), "{error}");
+    // The same error of another combination is not said again.
+    assert_eq!(error.matches("with metric").count(), 1, "{error}");
+    let error = refused(|v| v.set("pattern", ["latin16"]));
+    assert_eq!(
+        error,
+        "variants of `sraa`: the option `pattern` is varied, and set to `latin4` for all: leave one out"
+    );
 }
 
 /// The manifest, the shader and the Rust of one built-in kernel.

@@ -10,7 +10,7 @@ use proc_macro2::{Group, TokenStream, TokenTree};
 use std::path::{Path, PathBuf};
 use straightline_bench::execute::{Inputs, interpret_chain, test_inputs};
 use straightline_codegen::chain as codegen;
-use straightline_codegen::emit::{self, Emitted, Module, Target};
+use straightline_codegen::emit::{self, Emitted, Module, Modules, Target};
 use straightline_codegen::{Compiled, EmitOptions, Format, Kernel, Settings, ShaderSpec, Stage, Unroll, default_set};
 use straightline_kernels::CATALOGUE;
 use straightline_kernels::prelude::*;
@@ -346,7 +346,11 @@ fn compare(compiled: &Compiled, manifest: &Manifest, wgsl: &str) {
         manifest,
         wgsl,
     };
-    let text = emit::render_bindings(&[module], &[]).unwrap_or_else(|e| panic!("{e}"));
+    let text = emit::render_bindings(&Modules {
+        shaders: vec![module],
+        ..Default::default()
+    })
+    .unwrap_or_else(|e| panic!("{e}"));
     let plan = Plan::from_manifest(manifest).expect("a plan");
     let printed: TokenStream = format!("{plan:?}").parse().expect("tokens");
     let workgroup = text
