@@ -225,6 +225,12 @@ impl Plan {
         self.uniforms.iter().chain(&self.region)
     }
 
+    /// Returns whether a caller sets a uniform of this name: a field, or the matrix or array that fields are parts of.
+    pub fn has_uniform(&self, name: &str) -> bool {
+        let mut fields = self.uniforms.iter().flat_map(|uniform| uniform.fields.iter());
+        fields.any(|field| field.part.as_ref().map_or(&*field.name, |part| &*part.of) == name)
+    }
+
     /// Group and binding number of everything, sorted.
     pub fn binding_places(&self) -> Vec<(u32, u32)> {
         let mut places: Vec<(u32, u32)> = self.inputs.iter().map(|i| (i.group, i.binding)).collect();
