@@ -7,10 +7,12 @@ use wgpu::TextureView;
 
 /// A pass in which the renderer draws its geometry: depth, and what else the preset compares.
 ///
-/// Its colour targets are, in this order and each only with a preset that has it:
+/// Its colour targets are, in this order and each only with options that have it:
 ///
-/// 1. `normal`: the unit normal in the camera's space, alpha of no meaning;
-/// 2. `guide`: an estimate of the colour, in linear light, alpha of no meaning.
+/// 1. The unit normal in the camera's space.
+/// 2. The guide: an estimate of the colour, in linear light. Good is albedo times the sun's light and a constant of ambient light.
+///
+/// Their alpha is not read.
 #[derive(Clone, Copy, Debug)]
 pub struct GeometryPass<'a> {
     pub(crate) surface: &'a Surface,
@@ -45,14 +47,15 @@ impl<'a> GeometryPass<'a> {
 
     /// Begins the pass with all targets cleared.
     pub fn begin(&self, encoder: &mut wgpu::CommandEncoder) -> wgpu::RenderPass<'static> {
-        self.begin_with(encoder, &[])
+        self.begin_with(encoder, &[], None)
     }
 
-    /// Begins the pass with targets of the renderer's before those of the geometry.
+    /// Begins the pass with targets of the renderer's before those of the geometry, and with timestamps.
     pub fn begin_with(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         first: &[Option<wgpu::RenderPassColorAttachment<'_>>],
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) -> wgpu::RenderPass<'static> {
         let own = [self.normal(), self.guide()].into_iter().flatten();
         // A normal of length 0 says that there is no surface.
@@ -69,6 +72,7 @@ impl<'a> GeometryPass<'a> {
                 }),
                 stencil_ops: None,
             }),
+            timestamp_writes: timestamps,
             ..Default::default()
         });
         pass.forget_lifetime()

@@ -187,8 +187,10 @@ impl Sraa {
 
     /// Colour targets of the geometry passes, for the pipelines that draw into them; beside them there is depth, [`DEPTH`].
     pub fn geometry_targets(&self) -> Vec<Option<ColorTargetState>> {
-        let preset = self.options.preset;
-        let all = [(preset.has_normals(), NORMAL), (preset.has_guide(), GUIDE)];
+        let all = [
+            (self.options.has_normals(), NORMAL),
+            (self.options.preset.has_guide(), GUIDE),
+        ];
         let formats = all.into_iter().filter(|(is_drawn, _)| *is_drawn);
         formats.map(|(_, format)| Some(format.into())).collect()
     }
@@ -197,7 +199,7 @@ impl Sraa {
     /// Its targets are the colour, [`COLOR`], cleared to `background`, then those of [`Sraa::geometry_targets`].
     pub fn begin_shading(&self, encoder: &mut CommandEncoder, background: Color) -> RenderPass<'static> {
         let color = Some(cleared(&self.targets.color, background));
-        self.centre().begin_with(encoder, &[color])
+        self.centre().begin_with(encoder, &[color], None)
     }
 
     /// Records the decision where each pixel is shaded, after the geometry and before shading: with [`Preset::Full`] and

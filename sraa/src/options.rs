@@ -34,7 +34,7 @@ impl Preset {
         }
     }
 
-    /// Whether normals are drawn.
+    /// Whether normals are compared.
     pub fn has_normals(self) -> bool {
         self != Preset::Fast
     }
@@ -130,6 +130,8 @@ pub struct Options {
     pub preset: Preset,
     /// Geometry samples of a pixel.
     pub samples: Samples,
+    /// Whether normals are drawn even if the preset does not compare them.
+    pub draw_normals: bool,
 }
 
 impl Options {
@@ -138,6 +140,7 @@ impl Options {
         Options {
             preset,
             samples: Samples::Four,
+            draw_normals: false,
         }
     }
 
@@ -152,6 +155,19 @@ impl Options {
     pub fn samples(mut self, samples: Samples) -> Self {
         self.samples = samples;
         self
+    }
+}
+
+impl Options {
+    /// Sets whether normals are drawn even if the preset does not compare them: for deferred shading, which reads them.
+    #[must_use]
+    pub fn draw_normals(mut self, drawn: bool) -> Self {
+        self.draw_normals = drawn;
+        self
+    }
+
+    pub(crate) fn has_normals(self) -> bool {
+        self.draw_normals || self.preset.has_normals()
     }
 }
 

@@ -89,6 +89,11 @@ impl Projection {
         })
     }
 
+    /// The matrix, columns first.
+    pub fn matrix(&self) -> [[f32; 4]; 4] {
+        self.matrix
+    }
+
     /// Whether the camera has no perspective.
     pub fn is_parallel(&self) -> bool {
         self.is_parallel

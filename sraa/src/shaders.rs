@@ -68,14 +68,23 @@ impl Shaders {
     /// [`Error::Feature`] if they were not generated.
     pub fn find(options: Options, projection: &Projection) -> Result<Shaders, Error> {
         let preset = options.preset;
-        let (filter, place) = match (options.samples, projection.is_parallel()) {
-            (Samples::Four, false) => filters!(sraa_four, place_four, preset, projection),
+        let four = guides!(fit_sums_four, guide_four, residual_four);
+        #[cfg(feature = "sixteen")]
+        let sixteen = guides!(fit_sums_sixteen, guide_sixteen, residual_sixteen);
+        let ((filter, place), guide) = match (options.samples, projection.is_parallel()) {
+            (Samples::Four, false) => (filters!(sraa_four, place_four, preset, projection), four),
             #[cfg(feature = "parallel")]
-            (Samples::Four, true) => filters!(sraa_four_parallel, place_four_parallel, preset, projection),
+            (Samples::Four, true) => (
+                filters!(sraa_four_parallel, place_four_parallel, preset, projection),
+                four,
+            ),
             #[cfg(feature = "sixteen")]
-            (Samples::Sixteen, false) => filters!(sraa_sixteen, place_sixteen, preset, projection),
+            (Samples::Sixteen, false) => (filters!(sraa_sixteen, place_sixteen, preset, projection), sixteen),
             #[cfg(all(feature = "sixteen", feature = "parallel"))]
-            (Samples::Sixteen, true) => filters!(sraa_sixteen_parallel, place_sixteen_parallel, preset, projection),
+            (Samples::Sixteen, true) => (
+                filters!(sraa_sixteen_parallel, place_sixteen_parallel, preset, projection),
+                sixteen,
+            ),
             #[cfg(not(feature = "sixteen"))]
             (Samples::Sixteen, _) => {
                 return Err(Error::Feature {
@@ -91,13 +100,10 @@ impl Shaders {
                 });
             }
         };
-        let guide = preset.has_guide().then(|| match options.samples {
-            Samples::Four => guides!(fit_sums_four, guide_four, residual_four),
-            #[cfg(feature = "sixteen")]
-            Samples::Sixteen => guides!(fit_sums_sixteen, guide_sixteen, residual_sixteen),
-            #[cfg(not(feature = "sixteen"))]
-            Samples::Sixteen => unreachable!("refused above"),
-        });
-        Ok(Shaders { filter, place, guide })
+        Ok(Shaders {
+            filter,
+            place,
+            guide: preset.has_guide().then_some(guide),
+        })
     }
 }

@@ -100,16 +100,19 @@ impl Targets {
 
 impl Geometry {
     fn new(device: &Device, size: [u32; 2], options: Options) -> Geometry {
-        let preset = options.preset;
         let count = options.samples.offsets().len() as u32;
         let all = [
             (true, DEPTH, ["depth", "depth_samples", "centre_depth"]),
             (
-                preset.has_normals(),
+                options.has_normals(),
                 NORMAL,
                 ["normal", "normal_samples", "centre_normal"],
             ),
-            (preset.has_guide(), GUIDE, ["guide", "guide_samples", "centre_guide"]),
+            (
+                options.preset.has_guide(),
+                GUIDE,
+                ["guide", "guide_samples", "centre_guide"],
+            ),
         ];
         let mut read = Vec::new();
         // For each attribute, the views to draw into: of the samples, and last of the centre.

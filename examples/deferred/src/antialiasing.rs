@@ -3,6 +3,7 @@
 use crate::Failure;
 use std::fmt;
 use std::str::FromStr;
+pub use straightline_sraa::Preset;
 
 /// Antialiasing of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,16 +14,6 @@ pub enum Antialiasing {
     Sraa(Preset),
     /// Shading at each of the four geometry samples.
     Supersampling,
-}
-
-/// Presets of SRAA, as `straightline list sraa` describes them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Preset {
-    Paper,
-    Fast,
-    Edges,
-    Full,
-    Guided,
 }
 
 impl Antialiasing {

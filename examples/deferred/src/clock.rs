@@ -3,7 +3,8 @@
 use std::collections::VecDeque;
 use std::fmt;
 use std::time::Duration;
-use straightline_runtime::{Error, Span, Timer, wgpu};
+use straightline_sraa::runtime::{Error, Span, Timer};
+use straightline_sraa::wgpu;
 
 /// Passes of a frame at most: five of geometry, shading, presenting, and six kernels of SRAA.
 const PASSES: u32 = 13;

@@ -1,7 +1,7 @@
 //! The device for all drawing.
 
 use crate::Failure;
-use straightline_runtime::wgpu;
+use straightline_sraa::wgpu;
 
 #[cfg(not(target_arch = "wasm32"))]
 const NO_ADAPTER: &str = "no GPU adapter: install a Vulkan driver (a software one is in Debian's mesa-vulkan-drivers)";

@@ -21,11 +21,6 @@ mod web;
 #[cfg(all(feature = "window", not(target_arch = "wasm32")))]
 mod window;
 
-/// Output of `build.rs`: a module for each kernel.
-mod shaders {
-    straightline_runtime::include_shaders!();
-}
-
 /// Any error, to be displayed.
 type Failure = Box<dyn std::error::Error>;
 

@@ -7,7 +7,7 @@ use crate::{Failure, Size};
 use std::future::poll_fn;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Poll, Waker};
-use straightline_runtime::wgpu;
+use straightline_sraa::wgpu;
 use wgpu::TextureFormat;
 
 pub const FORMAT: TextureFormat = TextureFormat::Rgba8UnormSrgb;

@@ -6,7 +6,7 @@ use crate::renderer::Renderer;
 use crate::{Failure, Size, picture};
 use std::fmt;
 use std::time::{Duration, Instant};
-use straightline_runtime::wgpu;
+use straightline_sraa::wgpu;
 
 /// Frames of each choice that are timed, all choices in turn.
 const ROUNDS: usize = 15;

@@ -9,7 +9,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
-use straightline_runtime::wgpu;
+use straightline_sraa::wgpu;
 use wasm_bindgen::prelude::*;
 use web_sys::{Element, HtmlCanvasElement, KeyboardEvent, Window};
 use web_time::Instant;

@@ -7,7 +7,7 @@ use crate::renderer::Renderer;
 use crate::{Failure, Size};
 use std::sync::Arc;
 use std::time::Instant;
-use straightline_runtime::wgpu;
+use straightline_sraa::wgpu;
 use wgpu::CurrentSurfaceTexture;
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;

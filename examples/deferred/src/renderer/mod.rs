@@ -1,7 +1,5 @@
-//! A frame: geometry, once for each sample of a pixel that it needs; shading; SRAA, a part of which goes before shading; and
-//! presenting.
+//! A frame: geometry at the samples and the centre of each pixel, shading, SRAA, and presenting.
 
-mod filter;
 mod passes;
 #[cfg(not(target_arch = "wasm32"))]
 mod reference;
@@ -11,29 +9,21 @@ mod view;
 use crate::antialiasing::Antialiasing;
 use crate::clock::{Clock, Part};
 use crate::{Failure, Size};
-use filter::{Filter, Kernels};
-use glam::{Vec2, vec2};
 use passes::{Passes, bytes};
-use straightline_runtime::{Bound, wgpu};
-use targets::{LAYERS, Targets, all_layers};
+use straightline_sraa::runtime::Bound;
+use straightline_sraa::{Options, Preset, Sraa, wgpu};
+use targets::Targets;
 use view::View;
 use web_time::Instant;
 use wgpu::TextureFormat;
-
-/// Positions of the geometry samples, from the pixel's centre in pixels, y down: the kernel's pattern `latin4`.
-const SAMPLES: [Vec2; 4] = [vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375)];
-
-/// Layer of the G-buffer for the pixel's centre.
-const CENTRE: u32 = LAYERS - 1;
 
 /// Passes, and the textures between them.
 pub struct Renderer {
     queue: wgpu::Queue,
     passes: Passes,
-    kernels: Kernels,
     targets: Targets,
-    /// SRAA of the last frame, with its choice. `None` without SRAA.
-    filter: Option<(Antialiasing, Filter)>,
+    /// SRAA, or only its G-buffer.
+    sraa: Sraa,
     /// Frame times.
     pub clock: Clock,
 }
@@ -44,88 +34,101 @@ impl Renderer {
         Ok(Renderer {
             queue: queue.clone(),
             passes: Passes::new(device, queue, format),
-            kernels: Kernels::new(device)?,
             targets: Targets::new(device, size),
-            filter: None,
+            sraa: Sraa::new(device, size, options(Antialiasing::None), &View::new(size, 0.0).projection())?,
             clock: Clock::new(device, queue)?,
         })
     }
 
-    /// Records and submits the frame at `time` seconds. If the target has another size than the last one, the textures between the
-    /// passes are recreated. After this, or with another antialiasing, SRAA is bound anew.
+    /// Records and submits the frame at `time` seconds. If the target has another size than the last one, or the antialiasing is
+    /// another, the textures between the passes are recreated.
     pub fn draw(&mut self, time: f32, antialiasing: Antialiasing, target: &wgpu::TextureView) -> Result<(), Failure> {
         let begun = Instant::now();
-        self.prepare([target.texture().width(), target.texture().height()], antialiasing)?;
-        let view = View::new(self.targets.size, time);
-        self.set_samples(&view, &SAMPLES, 1.0);
-        let Renderer { queue, passes, targets, filter, clock, .. } = self;
-        let filter = filter.as_ref().map(|(_, filter)| filter);
-        if let Some(filter) = filter {
-            filter.set_view(queue, &view);
-        }
-
+        let view = self.prepare([target.texture().width(), target.texture().height()], time, antialiasing)?;
+        self.set_uniforms(&view, view.projection().matrix(), 1.0);
+        let Renderer { queue, passes, targets, sraa, clock, .. } = self;
         let mut encoder = passes.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let layers = match antialiasing {
-            Antialiasing::None => CENTRE..LAYERS,
-            Antialiasing::Sraa(_) => 0..LAYERS,
-            Antialiasing::Supersampling => 0..CENTRE,
-        };
-        for at in layers {
-            passes.draw_geometry(&mut encoder, targets, at, clock.span(Part::Scene)?);
+        let [samples_albedo, centre_albedo] = &targets.albedo;
+        if antialiasing != Antialiasing::None {
+            for pass in sraa.geometry() {
+                passes.draw_geometry(&mut encoder, pass, samples_albedo, clock.span(Part::Scene)?);
+            }
         }
-        let placing = filter.and_then(Filter::before_shading);
-        if let Some(kernel) = placing {
-            record(kernel, &mut encoder, clock)?;
+        if antialiasing != Antialiasing::Supersampling {
+            passes.draw_geometry(&mut encoder, sraa.centre(), centre_albedo, clock.span(Part::Scene)?);
         }
-        let [depth, normal, albedo] = targets.geometry.each_ref().map(all_layers);
-        let seen = [&depth, &normal, &albedo, &targets.place];
-        let (shading, seen) = match (antialiasing, placing) {
+        let is_sraa = matches!(antialiasing, Antialiasing::Sraa(_));
+        if is_sraa {
+            record(sraa.before_shading(), &mut encoder, clock)?;
+        }
+        let seen = seen(sraa, targets);
+        let (shading, seen) = match (antialiasing, sraa.place()) {
             (Antialiasing::Supersampling, _) => (&passes.shade_samples, &seen[..3]),
             (_, Some(_)) => (&passes.shade_placed, &seen[..]),
-            (_, None) => (&passes.shade_centre, &seen[..3]),
+            (_, None) => (&passes.shade_centre, &seen[3..6]),
         };
-        let inputs = (Some(&passes.uniforms[CENTRE as usize]), seen);
-        passes.cover(&mut encoder, shading, inputs, &targets.shaded, clock.span(Part::Scene)?);
-        for kernel in filter.iter().flat_map(|filter| filter.after_shading()) {
-            record(kernel, &mut encoder, clock)?;
+        let shaded = if is_sraa { sraa.color() } else { &targets.shaded };
+        passes.cover(&mut encoder, shading, (Some(&passes.uniforms), seen), shaded, clock.span(Part::Scene)?);
+        if is_sraa {
+            record(sraa.after_shading(), &mut encoder, clock)?;
         }
-        let shown = if filter.is_some() { &targets.resolved } else { &targets.shaded };
-        passes.cover(&mut encoder, &passes.present, (None, &[shown]), target, clock.span(Part::Scene)?);
+        let shown = if is_sraa { sraa.resolved() } else { shaded };
+        passes.cover(&mut encoder, &passes.present, (None, &[(1, shown)]), target, clock.span(Part::Scene)?);
         clock.resolve(&mut encoder)?;
         queue.submit([encoder.finish()]);
         clock.add(begun.elapsed())?;
         Ok(())
     }
 
-    /// Makes textures of this size, and binds SRAA to them.
-    fn prepare(&mut self, size: Size, antialiasing: Antialiasing) -> Result<(), Failure> {
-        if size != self.targets.size {
+    /// Makes textures of this size for this antialiasing. Returns the view.
+    fn prepare(&mut self, size: Size, time: f32, antialiasing: Antialiasing) -> Result<View, Failure> {
+        let view = View::new(size, time);
+        if size != self.sraa.size() {
             self.targets = Targets::new(&self.passes.device, size);
-            self.filter = None;
         }
-        if self.filter.as_ref().is_none_or(|(own, _)| *own != antialiasing) {
-            self.filter = match antialiasing {
-                Antialiasing::Sraa(preset) => Some((antialiasing, Filter::new(&self.kernels, preset, &self.targets)?)),
-                Antialiasing::None | Antialiasing::Supersampling => None,
-            };
+        let options = options(antialiasing);
+        if size != self.sraa.size() || options != self.sraa.options() {
+            self.sraa.reset(size, options, &view.projection())?;
         }
-        Ok(())
+        Ok(view)
     }
 
-    /// Sets the uniforms of the layers: those of four samples, and the centre.
-    fn set_samples(&self, view: &View, samples: &[Vec2; 4], share: f32) {
-        for (sample, uniforms) in samples.iter().chain([&Vec2::ZERO]).zip(&self.passes.uniforms) {
-            let uniforms_of_sample = bytes(view.uniforms(*sample, share).into_iter());
-            self.queue.write_buffer(uniforms, 0, &uniforms_of_sample);
-        }
+    fn set_uniforms(&self, view: &View, projection: [[f32; 4]; 4], share: f32) {
+        self.queue.write_buffer(&self.passes.uniforms, 0, &bytes(view.uniforms(projection, share).into_iter()));
     }
 }
 
-/// Records a kernel, timed if the frame is.
-fn record(kernel: &Bound, encoder: &mut wgpu::CommandEncoder, clock: &mut Clock) -> Result<(), Failure> {
-    match clock.timer(Part::Sraa) {
-        Some(timer) => kernel.encode_timed(encoder, timer)?,
-        None => kernel.encode(encoder),
+/// Options of SRAA. Shading reads normals, whatever the preset compares.
+fn options(antialiasing: Antialiasing) -> Options {
+    let preset = match antialiasing {
+        Antialiasing::Sraa(preset) => preset,
+        Antialiasing::None | Antialiasing::Supersampling => Preset::Fast,
+    };
+    Options::new(preset).draw_normals(true)
+}
+
+/// Textures that shading reads, with their bindings: of the samples, of the centre, and the place of the shading.
+fn seen<'a>(sraa: &'a Sraa, targets: &'a Targets) -> Vec<(u32, &'a wgpu::TextureView)> {
+    let texture = |name| sraa.geometry_texture(name);
+    let views = [
+        texture("depth_samples"),
+        texture("normal_samples"),
+        Some(&targets.albedo[0]),
+        texture("centre_depth"),
+        texture("centre_normal"),
+        Some(&targets.albedo[1]),
+        sraa.place(),
+    ];
+    (1..).zip(views).filter_map(|(binding, view)| Some((binding, view?))).collect()
+}
+
+/// Records passes of SRAA, timed if the frame is.
+fn record(passes: &[Bound], encoder: &mut wgpu::CommandEncoder, clock: &mut Clock) -> Result<(), Failure> {
+    for pass in passes {
+        match clock.timer(Part::Sraa) {
+            Some(timer) => pass.encode_timed(encoder, timer)?,
+            None => pass.encode(encoder),
+        }
     }
     Ok(())
 }

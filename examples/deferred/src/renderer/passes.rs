@@ -1,24 +1,23 @@
 //! Pipelines of `scene.wgsl`, and the render passes that use them.
 
-use super::targets::{ALBEDO, COLOR, DEPTH, LAYERS, NORMAL, Targets, Z_BUFFER, layer};
+use super::targets::ALBEDO;
 use super::view::UNIFORMS;
 use crate::scene;
 use glam::Vec3;
-use straightline_runtime::{Span, wgpu};
+use straightline_sraa::runtime::Span;
+use straightline_sraa::{COLOR, DEPTH, GUIDE, GeometryPass, NORMAL, wgpu};
 use wgpu::TextureFormat;
-
-/// Linear depth of the background.
-const SKY: f64 = 1.0e6;
 
 /// Pipelines, and everything else that does not depend on the size.
 pub struct Passes {
     pub device: wgpu::Device,
     corners: wgpu::Buffer,
     count: u32,
-    /// Uniforms of each layer.
-    pub uniforms: Vec<wgpu::Buffer>,
-    geometry: wgpu::RenderPipeline,
-    /// Shading at the pixel's centre, where the kernel `sraa_place` says, or at all samples.
+    /// Uniforms of the samples, whose matrix is the camera's own, and of the centre.
+    pub uniforms: wgpu::Buffer,
+    /// Geometry of all samples and of the centre, without a guide and with one.
+    geometry: [[wgpu::RenderPipeline; 2]; 2],
+    /// Shading at the pixel's centre, where SRAA says, or at all samples.
     pub shade_centre: wgpu::RenderPipeline,
     pub shade_placed: wgpu::RenderPipeline,
     pub shade_samples: wgpu::RenderPipeline,
@@ -31,13 +30,15 @@ impl Passes {
         let shader = device.create_shader_module(wgpu::include_wgsl!("../scene.wgsl"));
         let corners = scene::corners();
         let numbers = corners.as_flattened().iter().flat_map(Vec3::to_array);
-        let uniforms = || buffer(device, queue, wgpu::BufferUsages::UNIFORM, &[0; UNIFORMS]);
-        let over_all = |fragment, format| pipeline(device, &shader, ["cover", fragment], &[format], false);
+        let over_all = |fragment, format| pipeline(device, &shader, ["cover", fragment], &[format], None);
+        let geometry = |fragment, formats: &[TextureFormat]| {
+            [4, 1].map(|samples| pipeline(device, &shader, ["corner", fragment], formats, Some(samples)))
+        };
         Passes {
             corners: buffer(device, queue, wgpu::BufferUsages::VERTEX, &bytes(numbers)),
             count: corners.len() as u32,
-            uniforms: (0..LAYERS).map(|_| uniforms()).collect(),
-            geometry: pipeline(device, &shader, ["corner", "surface"], &[DEPTH, NORMAL, ALBEDO], true),
+            uniforms: buffer(device, queue, wgpu::BufferUsages::UNIFORM, &[0; UNIFORMS]),
+            geometry: [geometry("surface", &[ALBEDO, NORMAL]), geometry("guided_surface", &[ALBEDO, NORMAL, GUIDE])],
             shade_centre: over_all("shade_centre", COLOR),
             shade_placed: over_all("shade_placed", COLOR),
             shade_samples: over_all("shade_samples", COLOR),
@@ -46,35 +47,20 @@ impl Passes {
         }
     }
 
-    /// Draws the scene into one layer of the G-buffer.
+    /// Draws the scene into a pass of SRAA's, and the albedo beside it.
     pub fn draw_geometry(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        targets: &Targets,
-        at: u32,
+        geometry: GeometryPass<'_>,
+        albedo: &wgpu::TextureView,
         span: Option<Span<'_>>,
     ) {
-        let [depth, normal, albedo] = targets.geometry.each_ref().map(|texture| layer(texture, at));
-        let cleared =
-            |view, [r, g, b]: [f64; 3]| attachment(view, wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a: 0.0 }));
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("geometry"),
-            color_attachments: &[
-                cleared(&depth, [SKY, 0.0, 0.0]),
-                // A normal of length 0 says that there is no surface.
-                cleared(&normal, [0.0; 3]),
-                cleared(&albedo, [1.0; 3]),
-            ],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &targets.z_buffer,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: span.as_ref().map(Span::render_writes),
-            ..Default::default()
-        });
-        pass.set_pipeline(&self.geometry);
-        pass.set_bind_group(0, &self.bind(&self.geometry, Some(&self.uniforms[at as usize]), &[]), &[]);
+        let albedo = attachment(albedo, wgpu::LoadOp::Clear(wgpu::Color::WHITE));
+        let [samples, centre] = &self.geometry[usize::from(geometry.guide().is_some())];
+        let pipeline = if geometry.sample_count > 1 { samples } else { centre };
+        let mut pass = geometry.begin_with(encoder, &[albedo], span.as_ref().map(Span::render_writes));
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &self.bind(pipeline, Some(&self.uniforms), &[]), &[]);
         pass.set_vertex_buffer(0, self.corners.slice(..));
         pass.draw(0..self.count, 0..1);
     }
@@ -84,7 +70,7 @@ impl Passes {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         pipeline: &wgpu::RenderPipeline,
-        (uniforms, inputs): (Option<&wgpu::Buffer>, &[&wgpu::TextureView]),
+        (uniforms, inputs): (Option<&wgpu::Buffer>, &[(u32, &wgpu::TextureView)]),
         target: &wgpu::TextureView,
         span: Option<Span<'_>>,
     ) {
@@ -99,17 +85,16 @@ impl Passes {
         pass.draw(0..3, 0..1);
     }
 
-    /// Binds uniforms at binding 0 and textures from 1 on.
+    /// Binds uniforms at binding 0, and textures.
     fn bind(
         &self,
         pipeline: &wgpu::RenderPipeline,
         uniforms: Option<&wgpu::Buffer>,
-        textures: &[&wgpu::TextureView],
+        textures: &[(u32, &wgpu::TextureView)],
     ) -> wgpu::BindGroup {
         let uniforms = uniforms.map(|buffer| wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() });
-        let textures = (1..).zip(textures);
-        let textures = textures.map(|(binding, view)| wgpu::BindGroupEntry {
-            binding,
+        let textures = textures.iter().map(|(binding, view)| wgpu::BindGroupEntry {
+            binding: *binding,
             resource: wgpu::BindingResource::TextureView(view),
         });
         self.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -132,13 +117,14 @@ fn attachment(
     })
 }
 
-/// Creates a pipeline of two functions of the shader, with the layout that they require.
+/// Creates a pipeline of two functions of the shader, with the layout that they require. With a number of samples, it draws
+/// geometry.
 pub fn pipeline(
     device: &wgpu::Device,
     shader: &wgpu::ShaderModule,
     [vertex, fragment]: [&str; 2],
     formats: &[TextureFormat],
-    geometry: bool,
+    geometry: Option<u32>,
 ) -> wgpu::RenderPipeline {
     let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3];
     let corners = Some(wgpu::VertexBufferLayout {
@@ -154,18 +140,18 @@ pub fn pipeline(
             module: shader,
             entry_point: Some(vertex),
             compilation_options: Default::default(),
-            buffers: if geometry { std::slice::from_ref(&corners) } else { &[] },
+            buffers: if geometry.is_some() { std::slice::from_ref(&corners) } else { &[] },
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: geometry.then(|| wgpu::DepthStencilState {
-            format: Z_BUFFER,
+        depth_stencil: geometry.map(|_| wgpu::DepthStencilState {
+            format: DEPTH,
             depth_write_enabled: Some(true),
             // Reversed depth: larger is nearer.
             depth_compare: Some(wgpu::CompareFunction::Greater),
             stencil: Default::default(),
             bias: Default::default(),
         }),
-        multisample: wgpu::MultisampleState::default(),
+        multisample: wgpu::MultisampleState { count: geometry.unwrap_or(1), ..Default::default() },
         fragment: Some(wgpu::FragmentState {
             module: shader,
             entry_point: Some(fragment),
