@@ -88,7 +88,12 @@ impl Targets {
         });
         Targets {
             geometry: Geometry::new(device, size, options),
-            color: flat("SRAA colour", size, COLOR, DRAWN | TextureUsages::COPY_DST),
+            color: flat(
+                "SRAA colour",
+                size,
+                COLOR,
+                DRAWN | TextureUsages::COPY_SRC | TextureUsages::COPY_DST,
+            ),
             place: preset
                 .has_place()
                 .then(|| flat("SRAA place", size, TextureFormat::R32Uint, STORED)),
