@@ -105,7 +105,7 @@ impl Sraa {
         })
     }
 
-    /// Replaces size, options and camera. The textures are new if the size or the options are; shaders that were compiled stay.
+    /// Replaces size, options and camera. All textures are new; shaders that were compiled stay.
     ///
     /// # Errors
     ///
@@ -118,7 +118,7 @@ impl Sraa {
         Ok(())
     }
 
-    /// Replaces the textures by those of another size. Nothing happens if the size is the same.
+    /// Replaces the textures by those of another size. Nothing happens if size and projection are the same.
     ///
     /// # Errors
     ///
@@ -130,8 +130,8 @@ impl Sraa {
         }
     }
 
-    /// Follows a camera whose projection changes, for example by zooming. Cheap, unless the kind of projection changes: then
-    /// other shaders are bound.
+    /// Follows a camera whose projection changes, for example by zooming. Writes uniforms; but where the kind of projection
+    /// changes, this is a [`reset`](Sraa::reset).
     ///
     /// # Errors
     ///
