@@ -1,12 +1,12 @@
-//! Shaders and chains between their configuration and the files.
+//! Shaders, sets of them and chains, between their configuration and the files.
 
 use super::error::{Error, Problem};
+use super::shader::{BuiltShader, build_shader};
 use super::variants::{BuiltVariants, build_variants};
 use crate::chain::{Chain, ChainSpec, CompiledChain, EmittedChain};
-use crate::compiled::Compiled;
-use crate::emit::{self, Emitted, Modules};
+use crate::emit::{self, Modules};
 use crate::kernel::Kernel;
-use crate::spec::{KernelConfig, ShaderSpec, Source, Target};
+use crate::spec::{KernelConfig, Source, Target};
 use std::collections::BTreeMap;
 use straightline_evaluator::diagnostic::Errors;
 use straightline_evaluator::front::raw_name;
@@ -16,24 +16,6 @@ pub(super) enum Built {
     Shader(Box<BuiltShader>),
     Variants(BuiltVariants),
     Chain(Box<(CompiledChain, EmittedChain)>),
-}
-
-/// A shader ready to be written.
-pub(super) struct BuiltShader {
-    pub name: String,
-    pub compiled: Compiled,
-    pub emitted: Emitted,
-}
-
-impl BuiltShader {
-    pub fn bindings_module(&self) -> emit::Module<'_> {
-        emit::Module {
-            name: &self.name,
-            compiled: &self.compiled,
-            manifest: &self.emitted.manifest,
-            wgsl: self.emitted.wgsl(),
-        }
-    }
 }
 
 impl Built {
@@ -127,14 +109,4 @@ fn build_chain(config: &KernelConfig, chain: Chain) -> Result<Built, Errors> {
         emitted = emitted.renamed(name);
     }
     Ok(Built::Chain(Box::new((compiled, emitted))))
-}
-
-pub(super) fn build_shader(spec: &ShaderSpec, kernel: &Kernel, name: String) -> Result<BuiltShader, Errors> {
-    // The bindings include the WGSL.
-    let (compiled, emitted) = spec.clone().target(Target::Wgsl).emit(kernel)?;
-    Ok(BuiltShader {
-        name,
-        compiled,
-        emitted,
-    })
 }

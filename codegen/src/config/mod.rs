@@ -16,6 +16,7 @@
 
 mod built;
 mod error;
+mod shader;
 mod variants;
 
 use crate::emit::{self, Modules};

@@ -1,7 +1,7 @@
 //! A set of shaders of one kernel: one for each combination of option values, and those with the same text once.
 
-use super::built::{BuiltShader, build_shader};
 use super::error::{Error, Problem};
+use super::shader::{BuiltShader, build_shader};
 use crate::emit::{self, Axis};
 use crate::kernel::Kernel;
 use crate::spec::KernelConfig;

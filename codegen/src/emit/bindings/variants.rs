@@ -1,9 +1,9 @@
 //! The module of a set of shaders: an enum for each option that varies, and a shader for each combination.
 
-use super::{Module, doc_line, quote_or_errors, rust_identifier};
+use super::{Module, doc_line, rust_identifier};
+use crate::emit::prose::single_line_comment;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use straightline_evaluator::diagnostic::Errors;
 use straightline_manifest::Form;
 
 /// Input of the module of a set of shaders.
@@ -117,9 +117,11 @@ pub fn value_words(value: &str) -> Vec<String> {
 fn type_name(value: &str, taken: &mut Vec<String>) -> Ident {
     let mut name = String::new();
     for word in value_words(value) {
-        let starts_with_digit = word.starts_with(|c: char| c.is_ascii_digit());
-        if starts_with_digit {
-            name.push(if name.is_empty() { 'V' } else { '_' });
+        let is_digit = |c: char| c.is_ascii_digit();
+        if word.starts_with(is_digit) && name.is_empty() {
+            name.push('V');
+        } else if word.starts_with(is_digit) && name.ends_with(is_digit) {
+            name.push('_');
         }
         let (first, rest) = word.split_at(1);
         name.extend([&first.to_uppercase(), rest]);
@@ -134,13 +136,8 @@ fn type_name(value: &str, taken: &mut Vec<String>) -> Ident {
     format_ident!("{name}")
 }
 
-/// Returns the module of a set.
-///
-/// # Errors
-///
-/// A text that is not the shader that its manifest describes.
-pub fn quote_variants(set: &VariantsModule<'_>) -> Result<TokenStream, Errors> {
-    let modules = set.shaders.iter().map(quote_or_errors).collect::<Result<Vec<_>, _>>()?;
+/// Returns the module of a set, with the modules of its shaders in it.
+pub fn quote_variants(set: &VariantsModule<'_>, modules: &[TokenStream]) -> TokenStream {
     let name = rust_identifier(set.name);
     let types = set.axes.iter().map(Axis::quote_type);
     let variant = quote_variant(set);
@@ -155,11 +152,11 @@ pub fn quote_variants(set: &VariantsModule<'_>) -> Result<TokenStream, Errors> {
         .map_or("", |module| module.compiled.summary.trim_end_matches('.'));
     let (combinations, shaders) = (set.shader_of.len(), set.shaders.len());
     let docs = [
-        doc_line(&format!("{}.", super::single_line_comment(summary))),
+        doc_line(&format!("{}.", single_line_comment(summary))),
         String::new(),
         doc_line(&format!("{combinations} combinations of options, {shaders} shaders.")),
     ];
-    Ok(quote! {
+    quote! {
         #(#[doc = #docs])*
         // A caller uses only the parts that it needs.
         #[allow(dead_code, clippy::enum_variant_names)]
@@ -172,7 +169,7 @@ pub fn quote_variants(set: &VariantsModule<'_>) -> Result<TokenStream, Errors> {
 
             #(#modules)*
         }
-    })
+    }
 }
 
 /// Returns the structure `Variant`.
