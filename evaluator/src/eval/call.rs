@@ -7,7 +7,7 @@ use super::value::{ConstantDemand, Eval, Exit, Jump, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text};
 use crate::front::testing::RECORD;
-use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType, generic_arguments};
+use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType, generic_arguments, split_qualified};
 use crate::ir::{Naming, NodeId, Op, Scalar, Type};
 use std::borrow::Cow;
 use std::rc::Rc;
@@ -17,7 +17,12 @@ pub use crate::front::tree::vector_named as vector_type;
 impl<'a> Evaluator<'a> {
     pub fn eval_call(&mut self, path: &[String], constants: &[Expr], args: &[Expr], span: Span) -> Eval {
         let expected = self.expected.take();
-        let constants = self.generic_constants(path, constants)?;
+        if args.is_empty()
+            && let Some(value) = self.owned_constant(path, constants, span)?
+        {
+            return Ok(value);
+        }
+        let mut constants = self.generic_constants(path, constants)?;
         let values = self.eval_all(args)?;
         if values.contains(&Value::Poison) {
             return Err(Exit::Noted);
@@ -29,6 +34,9 @@ impl<'a> Evaluator<'a> {
             return Ok(value);
         }
         let resolved = self.resolve_path(path, &values, span)?;
+        if let Some(resolved) = &resolved {
+            self.add_owner_arguments(path, &resolved.join("::"), &mut constants);
+        }
         let path = resolved.as_deref().unwrap_or(path);
         if let [name] = path
             && let Some(callee) = self.scope.get(name).cloned()
@@ -85,14 +93,10 @@ impl<'a> Evaluator<'a> {
                     let constant = argument.and_then(|argument| self.constant_argument(argument));
                     constant.unwrap_or_else(Value::unit)
                 }
-                (None, Some(Generic::Type(_))) => match of_owner() {
-                    Some(SourceType::Name(name, _)) => match self.scope.get(name) {
-                        Some(ty @ Value::Type(_)) => ty.clone(),
-                        Some(_) => Value::unit(),
-                        None => Value::Type(name.clone()),
-                    },
-                    _ => Value::unit(),
-                },
+                (None, Some(Generic::Type(_))) => {
+                    let known = of_owner().and_then(|argument| self.resolve_type(argument));
+                    known.map_or_else(Value::unit, Value::Type)
+                }
                 (None, None) => Value::unit(),
             });
         }
@@ -100,15 +104,41 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Returns a type argument of `::<>`.
-    fn type_argument(&self, expr: &Expr) -> Value {
-        match &expr.kind {
+    fn type_argument(&mut self, expr: &Expr) -> Value {
+        let known = match &expr.kind {
             ExprKind::Path(path) if path.len() == 1 => match self.scope.get(&path[0]) {
-                Some(ty @ Value::Type(_)) => ty.clone(),
                 // A type parameter that is unknown here too.
-                Some(_) => Value::unit(),
-                None => Value::Type(path[0].clone()),
+                Some(ty) if !matches!(ty, Value::Type(_)) => None,
+                _ => self.resolve_type(&SourceType::Name(path[0].clone(), Vec::new())),
             },
-            _ => Value::unit(),
+            ExprKind::Cast(_, ty) => self.resolve_type(ty),
+            _ => None,
+        };
+        known.map_or_else(Value::unit, Value::Type)
+    }
+
+    /// Adds the arguments that the type of a type parameter has, for a function of this type.
+    fn add_owner_arguments(&mut self, path: &[String], key: &str, constants: &mut Vec<Value>) {
+        let parameter = match path {
+            [of, _] => Some(of.as_str()),
+            [name] => split_qualified(name).map(|(of, ..)| of),
+            _ => None,
+        };
+        let ty = parameter.and_then(|parameter| self.type_behind(parameter));
+        let function = self.library.functions.get(key);
+        let (Some(ty), Some(function)) = (ty, function) else {
+            return;
+        };
+        let Some(of) = function.of.as_ref().filter(|_| !ty.args.is_empty()) else {
+            return;
+        };
+        for (k, generic) in function.generics.iter().enumerate() {
+            let stated = constants.get(k).filter(|value| **value != Value::unit());
+            let value = stated.cloned().or_else(|| ty.argument_of(of, generic.name()));
+            match constants.get_mut(k) {
+                Some(place) => *place = value.unwrap_or_else(Value::unit),
+                None => constants.push(value.unwrap_or_else(Value::unit)),
+            }
         }
     }
 

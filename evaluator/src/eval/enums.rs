@@ -273,8 +273,8 @@ impl Evaluator<'_> {
             if self.known_bool(all) == Some(false) {
                 break;
             }
-            // Constants of one type are equal.
-            if matches!((&a, &b), (Value::Const(_), Value::Const(_))) {
+            // Arguments of one type are equal.
+            if matches!(&a, Value::Const(_) | Value::Type(_)) {
                 continue;
             }
             let same = self.eval_binary(BinaryOp::Eq, &a, &b, span)?;

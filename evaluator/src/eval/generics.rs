@@ -1,7 +1,7 @@
 //! Constant parameters of functions and structures: the 3 of `power::<3>(x)`, of `[f32; 3]` and of `Window<3>`.
 //!
 //! A structure stores its constant parameters as hidden fields. Their values come from the stated type, or from the
-//! length of an array in the structure.
+//! length of an array in the structure. It stores a type parameter too if no field shows what it stands for.
 
 use super::Evaluator;
 use super::value::{Eval, Value};
@@ -9,9 +9,8 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::{ExprKind, Function, Generic, Type as SourceType};
 use crate::ir::Type;
-use std::rc::Rc;
 
-/// Returns the name of the hidden field of a constant parameter, which no kernel can use.
+/// Returns the name of the hidden field of a parameter, which no kernel can use.
 fn hidden(parameter: &str) -> Name {
     format!("#{parameter}").into()
 }
@@ -94,7 +93,7 @@ impl Evaluator<'_> {
                 let definition = self.library.structs.get(name)?;
                 let mut pairs = definition.generics.iter().zip(args);
                 pairs.find_map(|(generic, arg)| match generic {
-                    Generic::Const(own, _) if arg.is_parameter(parameter) => constant_field(fields, own),
+                    Generic::Const(own, _) if arg.is_parameter(parameter) => hidden_field(fields, own),
                     _ => None,
                 })
             }
@@ -143,7 +142,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Returns a structure with the constants of its stated type.
+    /// Returns a structure with the arguments of its stated type.
     pub fn with_constants(&mut self, value: Value, args: &[SourceType], span: Span) -> Eval {
         let Value::Struct { ty, fields } = &value else {
             return Ok(value);
@@ -152,7 +151,15 @@ impl Evaluator<'_> {
         let generics = library.structs.get(ty.as_str()).map_or(&[][..], |s| &s.generics);
         let mut added = Vec::new();
         for (generic, arg) in generics.iter().zip(args) {
-            let Generic::Const(name, _) = generic else { continue };
+            let Generic::Const(name, _) = generic else {
+                let name = generic.name();
+                if self.type_argument_of(&value, name).is_none()
+                    && let Some(known) = self.resolve_type(arg)
+                {
+                    added.push((hidden(name), Value::Type(known)));
+                }
+                continue;
+            };
             let Some(stated) = self.constant_argument(arg).and_then(|stated| self.as_constant(&stated)) else {
                 continue;
             };
@@ -206,8 +213,8 @@ impl Evaluator<'_> {
     }
 }
 
-/// Returns a constant parameter stored in a structure's value.
-fn constant_field(fields: &Rc<Vec<(Name, Value)>>, parameter: &str) -> Option<Value> {
+/// Returns a parameter stored in a structure's value.
+pub fn hidden_field(fields: &[(Name, Value)], parameter: &str) -> Option<Value> {
     let name = hidden(parameter);
     let found = fields.iter().find(|(field, _)| *field == name);
     found.map(|(_, value)| value.clone())

@@ -161,6 +161,9 @@ impl<'a> Evaluator<'a> {
             }
             _ => return None,
         };
+        if !name.contains("::") && library.alternatives.contains_key(&method) {
+            return None;
+        }
         let (method, function) = library.functions.get_key_value(&method)?;
         Some((method, function))
     }

@@ -50,6 +50,7 @@ mod stages;
 mod tables;
 mod textures;
 mod traits;
+mod types;
 mod value;
 mod workgroups;
 

@@ -26,7 +26,7 @@ impl Evaluator<'_> {
         // Equal values are in order if the operator takes them.
         let mut holds = self.builder.bool(op != strict);
         for (a, b) in pairs.into_iter().rev() {
-            if matches!((&a, &b), (Value::Const(_), Value::Const(_))) {
+            if matches!(&a, Value::Const(_) | Value::Type(_)) {
                 continue;
             }
             let before = self.eval_binary(strict, &a, &b, span)?;

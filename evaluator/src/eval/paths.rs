@@ -3,17 +3,30 @@
 use super::Evaluator;
 use super::call::vector_type;
 use super::enums::EnumValue;
+use super::types::KnownType;
 use super::value::{Eval, Exit, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::tree::{Expr, Generic, generic_arguments, split_qualified};
 use std::rc::Rc;
 
 impl Evaluator<'_> {
     /// Evaluates a path to a variable, a constant or a variant.
     pub fn eval_path(&mut self, path: &[String], span: Span) -> Eval {
-        let of_parameter = match path {
-            [of, name] => self.type_behind(of).map(|ty| vec![ty, name.clone()]),
+        let owner = match path {
+            [of, _] => self.type_behind(of),
             _ => None,
         };
+        if let (Some(ty), [_, name]) = (&owner, path)
+            && let Some(key) = self.constant_key(ty, None, name)
+        {
+            return self.constant_by_key(key, Some(ty), span);
+        }
+        if let [key] = path
+            && key.contains("::")
+        {
+            return self.constant_by_key(key, None, span);
+        }
+        let of_parameter = owner.map(|ty| vec![ty.name.clone(), path[1].clone()]);
         let path = of_parameter.as_deref().unwrap_or(path);
         let last = path.last().map(String::as_str).unwrap_or_default();
         if path.len() == 1
@@ -59,7 +72,7 @@ impl Evaluator<'_> {
         if self.library.structs.get(last).is_some_and(|s| s.fields.is_empty()) {
             return Ok(Value::structure(last, Vec::new()));
         }
-        if let Some(value) = self.eval_constant(name, span)? {
+        if let Some(value) = self.eval_constant(name, None, span)? {
             return Ok(value);
         }
         match self.known_constant(path) {
@@ -79,30 +92,6 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Returns the name of the type that a type parameter stands for, or an associated type of one: `T`, `T::Space`.
-    pub fn type_behind(&self, of: &str) -> Option<String> {
-        let (parameter, associated) = match of.split_once("::") {
-            Some((parameter, name)) => (parameter, Some(name)),
-            None => (of, None),
-        };
-        let Some(Value::Type(ty)) = self.scope.get(parameter) else {
-            return None;
-        };
-        let Some(name) = associated else {
-            return Some(ty.clone());
-        };
-        let Some(crate::front::tree::Type::Name(found, _)) =
-            self.library.associated.get(&(ty.clone(), name.to_owned()))
-        else {
-            return None;
-        };
-        // A parameter of the type: what it stands for is known from the value.
-        match self.scope.get(&format!("{parameter}::{found}")) {
-            Some(Value::Type(argument)) => Some(argument.clone()),
-            _ => Some(found.clone()),
-        }
-    }
-
     /// Returns whether a path names a function: one in the kernel's files, or a method of a number or a vector.
     fn is_function(&self, path: &[String]) -> bool {
         let functions = &self.library.functions;
@@ -118,8 +107,58 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Evaluates a constant of the kernel's files, once.
-    fn eval_constant(&mut self, name: &str, span: Span) -> Eval<Option<Value>> {
+    /// Evaluates a constant of a type that has arguments or of a trait: `Window::<3>::SIZE`, `<f32 as Zero>::ZERO`; `None` of other
+    /// paths.
+    pub fn owned_constant(&mut self, path: &[String], constants: &[Expr], span: Span) -> Eval<Option<Value>> {
+        let last = path.last().map_or("", |last| last.rsplit("::").next().unwrap_or(last));
+        if last.contains(char::is_lowercase) {
+            return Ok(None);
+        }
+        let owner = generic_arguments(constants).1.cloned();
+        let owner = owner.and_then(|owner| self.resolve_type(&owner));
+        let key = match path {
+            [key] if self.library.consts.contains_key(key) || split_qualified(key).is_some() => {
+                return self.constant_by_key(key, owner.as_ref(), span).map(Some);
+            }
+            [ty, name] => {
+                let owner = owner.clone().unwrap_or_else(|| KnownType::from_name(ty));
+                self.constant_key(&owner, None, name)
+            }
+            [ty, of, name] => {
+                let owner = owner.clone().or_else(|| self.type_behind(ty));
+                let owner = owner.unwrap_or_else(|| KnownType::from_name(ty));
+                self.constant_key(&owner, Some(of), name)
+            }
+            _ => None,
+        };
+        match key {
+            Some(key) => self.constant_by_key(key, owner.as_ref(), span).map(Some),
+            None if self.library.find_variant(path).is_some() => self.eval_path(path, span).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Evaluates a constant by its key, or by a trait and a type parameter: `<T as Zero>::ZERO`.
+    fn constant_by_key(&mut self, key: &str, owner: Option<&Rc<KnownType>>, span: Span) -> Eval {
+        if let Some(value) = self.eval_constant(key, owner.map(Rc::as_ref), span)? {
+            return Ok(value);
+        }
+        let behind = split_qualified(key).and_then(|(of, named, name)| Some((self.type_behind(of)?, named, name)));
+        if let Some((ty, of, name)) = behind
+            && let Some(key) = self.constant_key(&ty, Some(of), name)
+            && let Some(value) = self.eval_constant(key, Some(&ty), span)?
+        {
+            return Ok(value);
+        }
+        let error = Diagnostic::error_at(Code::TypeNeeded, span, format!("the type of the constant `{key}` is not known"));
+        Err(error
+            .label("of which type?")
+            .help("state the type in the call that leads here: `function::<Type>(...)`")
+            .into())
+    }
+
+    /// Evaluates a constant of the kernel's files, once. The type that it is of tells the parameters of its `impl`.
+    fn eval_constant(&mut self, name: &str, owner: Option<&KnownType>, span: Span) -> Eval<Option<Value>> {
         if let Some(value) = self.consts.get(name).map(|(_, value)| value) {
             return Ok(Some(value.clone()));
         }
@@ -137,11 +176,20 @@ impl Evaluator<'_> {
             .help("write out one of the values in the cycle")
             .into());
         }
-        // The parameters of its `impl` have the values of the function that mentions it.
+        // Where no type is written, the parameters of its `impl` have the values of the function that mentions it.
         let mut given = Vec::new();
         for generic in &constant.generics {
-            let Some(value) = self.scope.get(generic.name()).cloned() else {
+            let of = constant.of.as_ref();
+            let value = match owner.filter(|owner| !owner.args.is_empty()).zip(of) {
+                Some((owner, of)) => owner.argument_of(of, generic.name()),
+                None => self.scope.get(generic.name()).cloned(),
+            };
+            let Some(value) = value else {
                 return Err(unknown_parameter(name, generic.name(), span));
+            };
+            let value = match generic {
+                Generic::Const(_, ty) => self.ascribe_type(value, Some(ty), span)?,
+                Generic::Type(_) => value,
             };
             given.push((generic.name(), value));
         }
@@ -169,7 +217,7 @@ fn unknown_parameter(constant: &str, parameter: &str, span: Span) -> Exit {
         span,
         format!("the parameter `{parameter}` of the constant `{constant}` is not known here"),
     )
-    .label("outside of its type's own functions")
-    .help("compute it in a function of the type, which has the parameter")
+    .label("of a type whose arguments are not stated")
+    .help("state them: `Type::<3>::NAME`, or compute it in a function of the type")
     .into()
 }

@@ -2,7 +2,9 @@
 //! parameters. A value carries its type, so a call resolves its function from the values alone.
 
 use super::Evaluator;
+use super::generics::hidden_field;
 use super::objects::OBJECT;
+use super::types::KnownType;
 use super::value::{Eval, Exit, Place, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Function, Generic, Type as SourceType, qualify_name, split_qualified};
@@ -32,13 +34,14 @@ impl<'a> Evaluator<'a> {
     }
 
     /// `true` if a value may have the stated type. References have been resolved already.
-    fn is_of(&self, value: &Value, ty: &SourceType, generics: &[Generic]) -> bool {
+    pub fn is_of(&mut self, value: &Value, ty: &SourceType, generics: &[Generic]) -> bool {
         match (ty.peel_refs(), value) {
             (SourceType::Name(name, _), _) if generics.iter().any(|generic| generic.name() == name) => true,
             (SourceType::Name(name, _), Value::Array(_) | Value::Table(_)) => self.is_unknown_name(name),
-            (SourceType::Name(name, _), _) => {
+            (SourceType::Name(name, args), _) => {
                 let names = self.type_names(value);
-                names.is_empty() || names.contains(name) || self.is_unknown_name(name)
+                let is_named = names.is_empty() || names.contains(name);
+                is_named && self.has_arguments(value, args, generics) || self.is_unknown_name(name)
             }
             (SourceType::Tuple(types), Value::Tuple(parts)) => {
                 types.len() == parts.len() && parts.iter().zip(types).all(|(part, ty)| self.is_of(part, ty, generics))
@@ -51,7 +54,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// `true` if a name does not denote a type; the values determine what inference found there.
-    fn is_unknown_name(&self, name: &str) -> bool {
+    pub fn is_unknown_name(&self, name: &str) -> bool {
         matches!(name, "_" | "Self") || !(self.library.has_type(name) || crate::front::is_prelude_type(name))
     }
 
@@ -65,19 +68,19 @@ impl<'a> Evaluator<'a> {
             loaded.push(self.deref_value(value.clone(), span)?);
         }
         let library = self.library;
-        let fits = |key: &&&str| {
-            let function = &library.functions[**key];
-            function.params.len() == loaded.len()
-                && function
-                    .params
-                    .iter()
-                    .zip(&loaded)
-                    .all(|(param, value)| self.is_of(value, &param.ty, &function.generics))
-        };
-        let found: Vec<&&str> = keys.iter().filter(fits).collect();
+        let mut found = Vec::new();
+        for key in keys {
+            let function = &library.functions[*key];
+            let mut pairs = function.params.iter().zip(&loaded);
+            if function.params.len() == loaded.len()
+                && pairs.all(|(param, value)| self.is_of(value, &param.ty, &function.generics))
+            {
+                found.push(*key);
+            }
+        }
         match found.as_slice() {
             [] => Ok(None),
-            [key] => Ok(Some(**key)),
+            [key] => Ok(Some(key)),
             [first, second, ..] => Err(Diagnostic::error_at(
                 Code::TraitBound,
                 span,
@@ -150,7 +153,8 @@ impl<'a> Evaluator<'a> {
             _ => return Ok(None),
         };
         let library = self.library;
-        match library.trait_keys(ty, of, name).first() {
+        let keys = library.trait_keys(ty, of, name);
+        match self.find_overload(&keys, std::slice::from_ref(value), span)? {
             Some(key) => self.inline_function(key, &[], vec![value.clone()], span).map(Some),
             None => Ok(None),
         }
@@ -229,7 +233,7 @@ impl<'a> Evaluator<'a> {
         }
         let [of, name] = path else { return Ok(None) };
         if let Some(ty) = self.type_behind(of) {
-            return Ok(Some(vec![ty, name.clone()]));
+            return Ok(Some(vec![ty.name.clone(), name.clone()]));
         }
         let library = self.library;
         if library.has_type(of)
@@ -261,22 +265,29 @@ impl<'a> Evaluator<'a> {
         let takes_self = library
             .declared_function(of, name)
             .is_some_and(|function| function.params.first().is_some_and(|own| own.name == "self"));
-        let types = match (
-            takes_self.then(|| values.first()).flatten(),
-            self.type_behind(parameter),
-        ) {
+        let behind = self.type_behind(parameter);
+        let types = match (takes_self.then(|| values.first()).flatten(), &behind) {
             (Some(first), _) => {
                 let first = self.deref_value(first.clone(), span)?;
                 self.type_names(&first)
             }
-            (None, Some(ty)) => vec![ty],
+            (None, Some(ty)) => vec![ty.name.clone()],
             (None, None) => Vec::new(),
         };
         let keys = types
             .iter()
             .map(|ty| library.trait_keys(ty, of, name))
             .find(|keys| !keys.is_empty());
-        let found = self.find_overload(&keys.unwrap_or_default(), values, span)?;
+        let mut keys = keys.unwrap_or_default();
+        if let Some(ty) = behind.filter(|_| keys.len() > 1) {
+            let known = Value::Type(ty);
+            keys.retain(|key| {
+                let function = &library.functions[*key];
+                let of = function.of.as_ref();
+                of.is_none_or(|of| self.may_be(of, Some(&known), &function.generics))
+            });
+        }
+        let found = self.find_overload(&keys, values, span)?;
         Ok(found.map(|key| vec![key.to_owned()]))
     }
 
@@ -293,17 +304,15 @@ impl<'a> Evaluator<'a> {
         for (k, generic) in function.generics.iter().enumerate() {
             let Generic::Type(name) = generic else { continue };
             let mut ty = match given.get(k) {
-                Some(Value::Type(ty)) => Some(ty.clone()),
+                Some(Value::Type(ty)) => Some(Rc::clone(ty)),
                 _ => None,
             };
             for (param, value) in function.params.iter().zip(args) {
+                if ty.as_ref().is_some_and(|ty| ty.is_complete() && self.has_all_arguments(ty)) {
+                    break;
+                }
                 let value = self.deref_value(value.clone(), span)?;
-                if param.ty.peel_refs().is_parameter(name) {
-                    bound.extend(self.arguments_of_type(&value, name));
-                }
-                if ty.is_none() {
-                    ty = self.type_in(&param.ty, &value, name);
-                }
+                ty = self.type_in(&param.ty, &value, name).or(ty);
             }
             bound.extend(ty.map(|ty| (name.clone(), Value::Type(ty))));
         }
@@ -311,12 +320,12 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Deduces what a type parameter stands for in the stated type of a value.
-    fn type_in(&self, ty: &SourceType, value: &Value, parameter: &str) -> Option<String> {
+    fn type_in(&self, ty: &SourceType, value: &Value, parameter: &str) -> Option<Rc<KnownType>> {
         let SourceType::Name(name, args) = ty.peel_refs() else {
             return None;
         };
         if name == parameter && args.is_empty() {
-            return self.type_names(value).into_iter().next();
+            return self.type_of_value(value);
         }
         let definition = self.library.structs.get(name)?;
         let mut pairs = definition.generics.iter().zip(args);
@@ -326,27 +335,14 @@ impl<'a> Evaluator<'a> {
         })
     }
 
-    /// Returns the type arguments of a structure that a type parameter stands for, such as `P::S`, as far as its fields
-    /// have their types.
-    fn arguments_of_type(&self, value: &Value, parameter: &str) -> Vec<(String, Value)> {
-        let Value::Struct { ty, .. } = value else {
-            return Vec::new();
-        };
-        let library = self.library;
-        let generics = library.structs.get(ty.as_str()).map_or(&[][..], |s| &s.generics);
-        let found = generics.iter().filter_map(|generic| {
-            let own = generic.name();
-            let argument = self.type_argument_of(value, own)?;
-            Some((format!("{parameter}::{own}"), Value::Type(argument)))
-        });
-        found.collect()
-    }
-
-    /// Deduces a type argument of a structure from the fields that have its type.
-    fn type_argument_of(&self, value: &Value, parameter: &str) -> Option<String> {
+    /// Deduces a type argument of a structure from the fields that have its type, or from its hidden field.
+    pub fn type_argument_of(&self, value: &Value, parameter: &str) -> Option<Rc<KnownType>> {
         let Value::Struct { ty, fields } = value else {
             return None;
         };
+        if let Some(Value::Type(known)) = hidden_field(fields, parameter) {
+            return Some(known);
+        }
         let definition = self.library.structs.get(ty.as_str())?;
         let mut pairs = definition.fields.iter().zip(fields.iter());
         pairs.find_map(|((_, ty, _), (_, value))| self.type_in(ty, value, parameter))

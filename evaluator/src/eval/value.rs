@@ -1,6 +1,7 @@
 //! Values that variables hold while a kernel is evaluated.
 
 use super::enums::EnumValue;
+use super::types::KnownType;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::Closure;
@@ -62,8 +63,8 @@ pub enum Value {
     Elements(Rc<Value>),
     /// A constant parameter of a structure's type, stored as a hidden field: the 3 of `Window<3>`, or 1 for `true`.
     Const(i64),
-    /// The type bound to a type parameter, by name.
-    Type(String),
+    /// The type bound to a type parameter.
+    Type(Rc<KnownType>),
     /// A closure's variable that aliases a variable of the enclosing function.
     Alias(Rc<Place>),
     /// An uninitialised variable.
@@ -240,7 +241,7 @@ impl Value {
             Value::Array(parts) => parts.iter().all(Value::is_plain),
             Value::Table(table) => table.element.is_plain(),
             Value::Enum(choice) => choice.all_fields().all(|(_, value)| value.is_plain()),
-            Value::Int(_) | Value::Const(_) | Value::Node(_) | Value::Unset | Value::Undef => true,
+            Value::Int(_) | Value::Const(_) | Value::Type(_) | Value::Node(_) | Value::Unset | Value::Undef => true,
             _ => false,
         }
     }
@@ -298,7 +299,7 @@ impl Value {
             Value::OneOf(..) => "one of several functions".to_owned(),
             Value::Elements(_) => "an array of which no type states the length".to_owned(),
             Value::Const(n) => format!("the constant {n}"),
-            Value::Type(ty) => format!("the type `{ty}`"),
+            Value::Type(ty) => format!("the type `{}`", ty.name),
             Value::Alias(_) => "a variable".to_owned(),
             Value::Undef => "any value".to_owned(),
             Value::Unset => "a variable without a value".to_owned(),

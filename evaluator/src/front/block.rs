@@ -5,7 +5,7 @@ use super::expr::Lower;
 use super::mentioned_in;
 use super::tree::{Block, Const, Expr, ExprKind, Pattern, Statement, Type};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use syn::spanned::Spanned;
 
 impl Lower {
@@ -110,6 +110,8 @@ impl Lower {
         }
         Const {
             generics: Vec::new(),
+            of: None,
+            bounds: HashMap::new(),
             name: item.ident.to_string(),
             value: self.lower_expr(&item.expr),
             ty: self.lower_type(&item.ty),

@@ -223,6 +223,7 @@ impl Lower {
                     .unwrap_or(Type::Tuple(Vec::new()));
                 self.typed_none(held, e.span())
             }
+            syn::Expr::Path(e) if let Some(constant) = self.owned_constant(e) => constant,
             syn::Expr::Path(e) => match (self.of_type(e), self.stated_type(&e.path)) {
                 (Some(path), Some(ty)) => self.typed(ExprKind::Path(path), ty, e.span()),
                 (Some(path), None) => ExprKind::Path(path),
@@ -400,30 +401,52 @@ impl Lower {
                 {
                     return self.typed(ExprKind::Call(called, Vec::new(), args), ty, e.span());
                 }
-                let mut owner = path.path.clone();
-                owner.segments.pop();
-                owner.segments.pop_punct();
-                if let Some(ty) = self.stated_type(&owner).or_else(|| self.generic_self(&owner)) {
-                    let span = self.token_span(owner.span());
-                    let unit = Box::new(Expr {
-                        kind: ExprKind::Tuple(Vec::new()),
-                        span,
-                    });
-                    constants.push(Expr {
-                        kind: ExprKind::Cast(unit, ty),
-                        span,
-                    });
-                }
+                constants.extend(self.owner_argument(path));
                 ExprKind::Call(with_trait(path, called), constants, args)
             }
             other => ExprKind::Invoke(self.lower_link(other), args),
         }
     }
 
+    /// The type before the last segment of a path, if it has arguments: `Window::<3>::new`, `<Window<3> as Trait>::new`.
+    fn owner_argument(&mut self, path: &syn::ExprPath) -> Option<Expr> {
+        let mut owner = path.path.clone();
+        owner.segments.pop();
+        owner.segments.pop_punct();
+        let ty = match &path.qself {
+            Some(own) => match self.lower_type(&own.ty) {
+                ty if has_arguments(&ty) => ty,
+                _ => return None,
+            },
+            None => self.stated_type(&owner).or_else(|| self.generic_self(&owner))?,
+        };
+        let span = self.token_span(owner.span());
+        let unit = Box::new(Expr {
+            kind: ExprKind::Tuple(Vec::new()),
+            span,
+        });
+        Some(Expr {
+            kind: ExprKind::Cast(unit, ty),
+            span,
+        })
+    }
+
+    /// A constant of a type that has arguments, or of a trait that is named.
+    fn owned_constant(&mut self, path: &syn::ExprPath) -> Option<ExprKind> {
+        let last = path.path.segments.last()?;
+        if last.ident.to_string().contains(char::is_lowercase) || !last.arguments.is_none() {
+            return None;
+        }
+        let owner = self.owner_argument(path);
+        let called = with_trait(path, self.of_type(path)?);
+        let is_owned = owner.is_some() || called.len() == 3;
+        is_owned.then(|| ExprKind::Call(called, owner.into_iter().collect(), Vec::new()))
+    }
+
     /// `Self` with the generic parameters of its `impl`.
     fn generic_self(&self, path: &syn::Path) -> Option<Type> {
         let own = self.self_type().filter(|_| path.is_ident("Self"))?.peel_refs();
-        matches!(own, Type::Name(_, args) if !args.is_empty()).then(|| own.clone())
+        has_arguments(own).then(|| own.clone())
     }
 
     /// Generic arguments in `::<>`, in order; a type counts as `()`.
@@ -453,7 +476,18 @@ impl Lower {
     /// A type in `::<>`, written as what has it: a name, which may be a constant's, `[T; n]` or `(A, B)`.
     fn type_argument(&mut self, ty: &syn::Type) -> ExprKind {
         match ty {
-            syn::Type::Path(t) => ExprKind::Path(self.path_segments(&t.path)),
+            syn::Type::Path(t) => {
+                let path = self.path_segments(&t.path);
+                let own = t.path.is_ident("Self").then(|| self.self_type().cloned()).flatten();
+                match self.stated_type(&t.path).or(own) {
+                    Some(ty @ Type::Name(..)) if path.len() == 1 && has_arguments(&ty) => {
+                        let span = self.token_span(t.span());
+                        let kind = ExprKind::Path(path);
+                        ExprKind::Cast(Box::new(Expr { kind, span }), ty)
+                    }
+                    _ => ExprKind::Path(path),
+                }
+            }
             syn::Type::Array(t) => {
                 let kind = self.type_argument(&t.elem);
                 let span = self.token_span(t.elem.span());
@@ -599,6 +633,10 @@ fn is_assignment(op: &syn::BinOp) -> bool {
             | B::ShlAssign(_)
             | B::ShrAssign(_)
     )
+}
+
+fn has_arguments(ty: &Type) -> bool {
+    matches!(ty, Type::Name(_, args) if !args.is_empty())
 }
 
 /// Adds the trait to a call of `<Type as Trait>::name`, unless it is one of Rust's.

@@ -47,6 +47,8 @@ pub(super) struct Owner {
     pub bounds: HashMap<String, Vec<String>>,
     /// The type with its arguments.
     pub ty: Type,
+    /// The type as it is written.
+    pub shown: String,
     /// Types that other names stand for in it.
     pub stands: HashMap<String, Type>,
     /// Type parameters that are called, with their types.
@@ -248,17 +250,52 @@ impl Items {
         body: &syn::Block,
         attrs: &[syn::Attribute],
         of: Option<&Owner>,
-    ) {
-        let name = qualified_name(of.map(|of| of.name.as_str()), &sig.ident);
+    ) -> String {
+        let plain = qualified_name(of.map(|of| of.name.as_str()), &sig.ident);
         let (function, errors) = self.lower_function(file, sig, body, attrs, of);
-        if file == super::std::FILE && self.library.functions.contains_key(&name) {
-            return;
+        if file == super::std::FILE && self.library.functions.contains_key(&plain) {
+            return plain;
         }
-        if self.library.functions.contains_key(&name) {
-            self.note_duplicate(&self.lower_of(file), sig.ident.span(), &name);
-        }
+        let name = self.inherent_key(plain, of, sig.ident.span(), file);
         self.insert(&name, &sig.ident, function);
         self.note_errors_of(&name, errors);
+        name
+    }
+
+    /// Key of a function or a constant of an `impl`: its type and its name, with the type's arguments if another `impl` gives the
+    /// type one of this name.
+    fn inherent_key(&mut self, plain: String, of: Option<&Owner>, at: Span, file: u32) -> String {
+        let library = &mut self.library;
+        if !library.functions.contains_key(&plain) && !library.consts.contains_key(&plain) {
+            return plain;
+        }
+        let known = library.alternatives.get(&plain).cloned();
+        let mut known = known.unwrap_or_else(|| vec![plain.clone()]);
+        match of {
+            Some(of) if known.iter().all(|key| self.is_other_type(key, of)) => {
+                let name = plain.rsplit("::").next().unwrap_or(&plain);
+                let key = format!("{}::{name}", of.shown);
+                known.push(key.clone());
+                self.library.alternatives.insert(plain, known);
+                key
+            }
+            _ => {
+                self.note_duplicate(&self.lower_of(file), at, &plain);
+                plain
+            }
+        }
+    }
+
+    /// Returns whether a function or a constant is of an `impl` of no type that another `impl` is of.
+    pub(super) fn is_other_type(&self, key: &str, owner: &Owner) -> bool {
+        let library = &self.library;
+        let generics = library.functions.get(key).map(|function| &function.generics);
+        let generics = generics.or_else(|| library.consts.get(key).map(|constant| &constant.generics));
+        let both = || generics.into_iter().flatten().chain(&owner.generics);
+        let is_parameter = |name: &str| both().any(|generic| generic.name() == name);
+        library
+            .owner_of(key)
+            .is_some_and(|of| of.is_apart(&owner.ty, &is_parameter))
     }
 
     /// Adds a function.
@@ -431,6 +468,7 @@ impl Items {
             generics: lower.lower_generics(&item.generics),
             bounds: lower.trait_bounds(&item.generics),
             ty: ty.clone(),
+            shown: super::cfg::as_written(&item.self_ty).replace(' ', ""),
             stands: HashMap::new(),
             functions: std::mem::take(&mut lower.functions),
         };
@@ -449,8 +487,7 @@ impl Items {
                         continue;
                     }
                     check.check_function(&mut f.sig, &mut f.block);
-                    self.add_function(file, &f.sig, &f.block, &f.attrs, Some(&of));
-                    &f.sig.ident
+                    self.add_function(file, &f.sig, &f.block, &f.attrs, Some(&of))
                 }
                 syn::ImplItem::Const(c) => {
                     if !check.keeps(&mut c.attrs) {
@@ -458,41 +495,43 @@ impl Items {
                     }
                     check.constant_name(&c.ident);
                     check.check_constant(&mut c.generics, &mut c.ty, &mut c.expr);
-                    let mut lower = self.lower_within(file, &of);
-                    let name = format!("{}::{}", of.name, c.ident);
-                    let value = lower.lower_expr(&c.expr);
-                    let ty = lower.lower_type(&c.ty);
-                    if self.library.consts.contains_key(&name) {
-                        self.note_duplicate(&lower, c.ident.span(), &name);
-                    }
-                    self.note_errors_of(&name, lower.errors);
-                    let constant = super::tree::Const {
-                        name: name.clone(),
-                        generics: of.generics.clone(),
-                        value,
-                        ty,
-                    };
-                    self.library.consts.insert(name, constant);
-                    &c.ident
+                    let plain = qualified_name(Some(&of.name), &c.ident);
+                    let name = self.inherent_key(plain, Some(&of), c.ident.span(), file);
+                    self.insert_constant(&name, file, c, &of);
+                    name
                 }
                 syn::ImplItem::Type(t) => {
                     if !check.keeps(&mut t.attrs) {
                         continue;
                     }
                     check.refuse(t.span(), "a type in an `impl`", "write the type out");
-                    &t.ident
+                    qualified_name(Some(&of.name), &t.ident)
                 }
                 other => {
                     self.refuse_definitions(other.to_token_stream(), check);
                     continue;
                 }
             };
-            let name = qualified_name(Some(&of.name), name);
             let mut text = item.self_ty.to_token_stream();
             text.extend(inner.to_token_stream());
             self.note_errors_of(&name, of_all.clone());
             self.note(&name, text, check);
         }
+    }
+
+    /// Adds a constant of an `impl`.
+    pub(super) fn insert_constant(&mut self, key: &str, file: u32, item: &syn::ImplItemConst, of: &Owner) {
+        let mut lower = self.lower_within(file, of);
+        let constant = super::tree::Const {
+            name: key.to_owned(),
+            generics: of.generics.clone(),
+            of: Some(of.ty.clone()),
+            bounds: of.bounds.clone(),
+            value: lower.lower_expr(&item.expr),
+            ty: lower.lower_type(&item.ty),
+        };
+        self.note_errors_of(key, lower.errors);
+        self.library.consts.insert(key.to_owned(), constant);
     }
 
     pub(super) fn note_duplicate(&mut self, lower: &Lower, span: Span, name: &str) {

@@ -96,8 +96,36 @@ const SCALARS_ONLY: &[&str] = &[
     "round_ties_even", "sinh", "tan", "tanh", "trailing_zeros",
 ];
 
-/// Returns whether numbers or vectors have an inherent method of a name, which takes precedence over one of a trait.
+/// Returns whether a number, a vector or a matrix has a constant of a name in Rust or glam.
+fn has_constant(ty: &str, name: &str) -> bool {
+    let Some((kind, lanes)) = crate::front::tree::vector_named(ty) else {
+        return match ty {
+            "f32" => [
+                "DIGITS", "EPSILON", "INFINITY", "MANTISSA_DIGITS", "MAX", "MAX_10_EXP", "MAX_EXP", "MIN", "MIN_10_EXP",
+                "MIN_EXP", "MIN_POSITIVE", "NAN", "NEG_INFINITY", "RADIX",
+            ]
+            .contains(&name),
+            "i32" | "u32" | "usize" | "i8" | "i16" | "u8" | "u16" => ["BITS", "MAX", "MIN"].contains(&name),
+            "Mat2" | "Mat3" | "Mat4" => ["IDENTITY", "NAN", "ZERO"].contains(&name),
+            _ => false,
+        };
+    };
+    let axes = &["X", "Y", "Z", "W"][..usize::from(lanes)];
+    let is_axis = |name: &str| name == "ONE" || axes.contains(&name);
+    match kind {
+        Scalar::Bool => matches!(name, "FALSE" | "TRUE"),
+        _ if is_axis(name) || matches!(name, "AXES" | "MAX" | "MIN" | "ZERO") => true,
+        Scalar::F32 if matches!(name, "INFINITY" | "NAN" | "NEG_INFINITY") => true,
+        Scalar::F32 | Scalar::I32 => name.strip_prefix("NEG_").is_some_and(is_axis),
+        _ => false,
+    }
+}
+
+/// Returns whether numbers or vectors have an inherent method or constant of a name, which takes precedence over one of a trait.
 pub fn is_inherent(ty: &str, name: &str) -> bool {
+    if has_constant(ty, name) {
+        return true;
+    }
     let value = match (ty, crate::front::tree::vector_named(ty)) {
         (_, Some((kind, lanes))) => Type::value(kind, lanes),
         ("f32", _) => Type::F32,

@@ -25,6 +25,7 @@ impl Items {
             generics: self.lower_of(file).lower_generics(&item.generics),
             bounds: HashMap::new(),
             ty: declared,
+            shown: name.clone(),
             stands: HashMap::new(),
             functions: HashMap::new(),
         };
@@ -160,6 +161,7 @@ impl Items {
             generics,
             bounds,
             ty: ty.clone(),
+            shown: super::cfg::as_written(&item.self_ty).replace(' ', ""),
             stands,
             functions: lower.functions.clone(),
         };
@@ -223,7 +225,7 @@ impl Items {
                 check.check_function(&mut f.sig, &mut f.block);
                 let plain = qualified_name(Some(&owner.name), &f.sig.ident);
                 let key = self.function_key(&plain, owner, named);
-                if self.implemented_twice(&plain, named) {
+                if self.implemented_twice(&plain, owner, named) {
                     self.note_duplicate(&self.lower_of(file), f.sig.ident.span(), &plain);
                     return;
                 }
@@ -231,11 +233,7 @@ impl Items {
                 function.default_of = named.is_default.then(|| named.trait_name.to_owned());
                 self.note_errors_of(&key, lowered);
                 self.insert(&key, &f.sig.ident, function);
-                self.library.implemented.entry(plain).or_default().push(Implemented {
-                    of: named.trait_name.to_owned(),
-                    args: named.args.to_vec(),
-                    key: key.clone(),
-                });
+                self.note_implemented(plain, &key, named);
                 key
             }
             syn::ImplItem::Const(c) => {
@@ -244,22 +242,15 @@ impl Items {
                 }
                 check.constant_name(&c.ident);
                 check.check_constant(&mut c.generics, &mut c.ty, &mut c.expr);
-                let mut lower = self.lower_within(file, owner);
-                let name = qualified_name(Some(&owner.name), &c.ident);
-                let value = lower.lower_expr(&c.expr);
-                let ty = lower.lower_type(&c.ty);
-                if self.library.consts.contains_key(&name) {
-                    self.note_duplicate(&lower, c.ident.span(), &name);
+                let plain = qualified_name(Some(&owner.name), &c.ident);
+                let key = self.function_key(&plain, owner, named);
+                if self.implemented_twice(&plain, owner, named) {
+                    self.note_duplicate(&self.lower_of(file), c.ident.span(), &plain);
+                    return;
                 }
-                self.note_errors_of(&name, lower.errors);
-                let constant = super::tree::Const {
-                    name: name.clone(),
-                    generics: owner.generics.clone(),
-                    value,
-                    ty,
-                };
-                self.library.consts.insert(name.clone(), constant);
-                name
+                self.insert_constant(&key, file, c, owner);
+                self.note_implemented(plain, &key, named);
+                key
             }
             syn::ImplItem::Type(_) => return,
             other => return self.refuse_definitions(other.to_token_stream(), check),
@@ -270,19 +261,32 @@ impl Items {
         self.note(&key, mentioned, check);
     }
 
-    /// Key of a function of an implementation: its type and its name if those are free.
+    /// Notes that a trait gives a type a function or a constant.
+    fn note_implemented(&mut self, plain: String, key: &str, named: &Named<'_>) {
+        self.library.implemented.entry(plain).or_default().push(Implemented {
+            of: named.trait_name.to_owned(),
+            args: named.args.to_vec(),
+            key: key.to_owned(),
+        });
+    }
+
+    /// Key of a function or a constant of an implementation: its type and its name if those are free.
     fn function_key(&self, plain: &str, owner: &Owner, named: &Named<'_>) -> String {
         let name = plain.rsplit("::").next().unwrap_or(plain);
+        let is_taken = |key: &str| self.library.functions.contains_key(key) || self.library.consts.contains_key(key);
         // A method of the type itself goes before one of a trait.
-        let taken = self.library.functions.contains_key(plain) || super::methods::is_inherent(&owner.name, name);
-        match taken {
-            true => format!("<{} as {}>::{name}", owner.name, named.shown),
-            false => plain.to_owned(),
+        if !is_taken(plain) && !super::methods::is_inherent(&owner.name, name) {
+            return plain.to_owned();
+        }
+        let key = format!("<{} as {}>::{name}", owner.name, named.shown);
+        match is_taken(&key) {
+            true => format!("<{} as {}>::{name}", owner.shown, named.shown),
+            false => key,
         }
     }
 
     /// Returns whether there is an implementation of the trait for the type already, ignoring references.
-    fn implemented_twice(&self, plain: &str, named: &Named<'_>) -> bool {
+    fn implemented_twice(&self, plain: &str, owner: &Owner, named: &Named<'_>) -> bool {
         let alike = |a: &[Type], b: &[Type]| {
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| bare_type_name(a) == bare_type_name(b))
         };
@@ -290,7 +294,7 @@ impl Items {
         known.is_some_and(|known| {
             known
                 .iter()
-                .any(|i| i.of == named.trait_name && alike(&i.args, named.args))
+                .any(|i| i.of == named.trait_name && alike(&i.args, named.args) && !self.is_other_type(&i.key, owner))
         })
     }
 

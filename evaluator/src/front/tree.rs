@@ -18,6 +18,19 @@ pub struct Expr {
     pub span: Span,
 }
 
+impl Expr {
+    /// Value of a literal integer or boolean.
+    pub fn known_constant(&self) -> Option<i64> {
+        match &self.kind {
+            ExprKind::Int(value, _) => Some(*value),
+            ExprKind::Bool(value) => Some(i64::from(*value)),
+            ExprKind::Unary(UnaryOp::Neg, operand) => operand.known_constant().map(|value| -value),
+            ExprKind::Block(block) if block.statements.is_empty() => block.value.as_ref()?.known_constant(),
+            _ => None,
+        }
+    }
+}
+
 /// Kinds of expressions.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
@@ -43,7 +56,8 @@ pub enum ExprKind {
     Lazy(bool, Box<Expr>, Box<Expr>),
     /// `place = value`, or `place op= value`.
     Assign(Box<Expr>, Option<BinaryOp>, Box<Expr>),
-    /// `function::<constants>(arguments)` by the path's last two segments.
+    /// `function::<constants>(arguments)` by the path's last two segments; without arguments also a constant of a type that has
+    /// arguments or of a trait: `Window::<3>::SIZE`, `<f32 as Zero>::ZERO`.
     Call(Vec<String>, Vec<Expr>, Vec<Expr>),
     /// `(callee)(arguments)`: a call of what an expression gives.
     Invoke(Box<Expr>, Vec<Expr>),
@@ -375,6 +389,26 @@ impl Type {
         }
     }
 
+    /// Returns whether no type is both of two types that `impl`s are of, as their arguments differ.
+    pub fn is_apart(&self, other: &Type, is_parameter: &impl Fn(&str) -> bool) -> bool {
+        match (self.peel_refs(), other.peel_refs()) {
+            (Type::Name(a, _), _) | (_, Type::Name(a, _)) if is_parameter(a) => false,
+            (Type::Name(a, of_a), Type::Name(b, of_b)) => {
+                a != b || of_a.iter().zip(of_b).any(|(a, b)| a.is_apart(b, is_parameter))
+            }
+            (Type::Tuple(a), Type::Tuple(b)) => {
+                a.len() != b.len() || a.iter().zip(b).any(|(a, b)| a.is_apart(b, is_parameter))
+            }
+            (Type::Array(a, _), Type::Array(b, _)) => a.is_apart(b, is_parameter),
+            (Type::Const(a), Type::Const(b)) => match (a.known_constant(), b.known_constant()) {
+                (Some(a), Some(b)) => a != b,
+                _ => false,
+            },
+            (Type::Const(_), _) | (_, Type::Const(_)) | (Type::Fn(..), Type::Fn(..)) => false,
+            _ => true,
+        }
+    }
+
     /// Returns whether the type is `&mut T`.
     pub fn is_mutable_reference(&self) -> bool {
         matches!(self, Type::Ref(true, _))
@@ -440,16 +474,16 @@ pub struct Function {
 }
 
 /// Generic arguments of a call: those of the function, and the type before it, if that has arguments: `Window::<3>::new`, which are
-/// lowered as `() as Window<3>` behind the others.
+/// lowered as `() as Window<3>` behind the others. An argument that has arguments itself is a path: `Window as Window<3>`.
 pub fn generic_arguments(stated: &[Expr]) -> (&[Expr], Option<&Type>) {
     match stated.split_last() {
         Some((
             Expr {
-                kind: ExprKind::Cast(_, ty @ Type::Name(..)),
+                kind: ExprKind::Cast(unit, ty @ Type::Name(..)),
                 ..
             },
             own,
-        )) => (own, Some(ty)),
+        )) if matches!(unit.kind, ExprKind::Tuple(_)) => (own, Some(ty)),
         _ => (stated, None),
     }
 }
@@ -473,6 +507,10 @@ pub struct Const {
     pub name: String,
     /// Generic parameters of its `impl`.
     pub generics: Vec<Generic>,
+    /// Type that its `impl` is of, with its arguments.
+    pub of: Option<Type>,
+    /// The traits that type parameters have, by their names.
+    pub bounds: HashMap<String, Vec<String>>,
     /// Value.
     pub value: Expr,
     /// Type.
@@ -539,14 +577,14 @@ pub struct Trait {
     pub supers: Vec<String>,
 }
 
-/// A function that an implementation of a trait gives a type.
+/// A function or a constant that an implementation of a trait gives a type.
 #[derive(Clone, Debug)]
 pub struct Implemented {
     /// The trait.
     pub of: String,
     /// The trait's type arguments.
     pub args: Vec<Type>,
-    /// Key of the function in [`Library::functions`].
+    /// Key in [`Library::functions`] or [`Library::consts`].
     pub key: String,
 }
 
@@ -598,8 +636,11 @@ pub struct Library {
     pub options: FxHashMap<String, Vec<OptionField>>,
     /// Traits.
     pub traits: FxHashMap<String, Trait>,
-    /// Functions that implementations of traits give types, by `Type::name`.
+    /// Functions and constants that implementations of traits give types, by `Type::name`.
     pub implemented: FxHashMap<String, Vec<Implemented>>,
+    /// Keys of functions and constants that several `impl`s of one type give under one name, by `Type::name`: those of
+    /// `impl Window<3>` and `impl Window<5>`.
+    pub alternatives: FxHashMap<String, Vec<String>>,
     /// Types and traits that they implement.
     pub implements: FxHashSet<(String, String)>,
     /// Type, generic parameters and place of each implementation.
@@ -618,21 +659,54 @@ impl Library {
         self.structs.contains_key(name) || self.enums.contains_key(name)
     }
 
-    /// Keys of the functions that `Type::name` may mean: a function of the type itself alone, or functions of traits.
+    /// Keys of the functions that `Type::name` may mean: those of the type itself alone, or those of traits.
     pub fn method_keys(&self, ty: &str, name: &str) -> Vec<&str> {
+        let mut keys = self.member_keys(ty, name);
+        keys.retain(|key| self.functions.contains_key(*key));
+        keys
+    }
+
+    /// Keys of the constants that `Type::NAME` may mean, as of [`Library::method_keys`].
+    pub fn constant_keys(&self, ty: &str, name: &str) -> Vec<&str> {
+        let mut keys = self.member_keys(ty, name);
+        keys.retain(|key| self.consts.contains_key(*key));
+        keys
+    }
+
+    fn member_keys(&self, ty: &str, name: &str) -> Vec<&str> {
         let plain = format!("{ty}::{name}");
         let of_traits = self.implemented.get(&plain).map_or(&[][..], Vec::as_slice);
-        match self.functions.get_key_value(&plain) {
-            Some((key, _)) if of_traits.iter().all(|i| i.key != plain) => vec![key],
+        let function = self.functions.get_key_value(&plain).map(|(key, _)| key);
+        let constant = || self.consts.get_key_value(&plain).map(|(key, _)| key);
+        match (self.alternatives.get(&plain), function.or_else(constant)) {
+            (Some(several), _) => several.iter().map(String::as_str).collect(),
+            (None, Some(key)) if of_traits.iter().all(|i| i.key != plain) => vec![key],
             _ => of_traits.iter().map(|i| i.key.as_str()).collect(),
         }
     }
 
+    /// Type of the `impl` that gives a function or a constant.
+    pub fn owner_of(&self, key: &str) -> Option<&Type> {
+        let function = self.functions.get(key).map(|function| &function.of);
+        function.or_else(|| self.consts.get(key).map(|constant| &constant.of))?.as_ref()
+    }
+
     /// Keys of the functions that a trait gives a type.
     pub fn trait_keys(&self, ty: &str, of: &str, name: &str) -> Vec<&str> {
+        let keys = self.trait_members(ty, of, name);
+        keys.filter(|key| self.functions.contains_key(*key)).collect()
+    }
+
+    /// Keys of the constants that a trait gives a type.
+    pub fn trait_constants(&self, ty: &str, of: &str, name: &str) -> Vec<&str> {
+        let keys = self.trait_members(ty, of, name);
+        keys.filter(|key| self.consts.contains_key(*key)).collect()
+    }
+
+    fn trait_members(&self, ty: &str, of: &str, name: &str) -> impl Iterator<Item = &str> {
         let of_traits = self.implemented.get(&format!("{ty}::{name}"));
-        let of_traits = of_traits.into_iter().flatten().filter(|i| i.of == of);
-        of_traits.map(|i| i.key.as_str()).collect()
+        let of_traits = of_traits.into_iter().flatten().filter(move |i| i.of == of);
+        of_traits.map(|i| i.key.as_str())
     }
 
     /// The function of a trait, or of one that it needs.
@@ -647,11 +721,11 @@ impl Library {
         own.or_else(|| found.supers.iter().find_map(|of| self.declaring_trait(of, name)))
     }
 
-    /// The type of a constant of a trait, or of one that it needs.
-    pub fn declared_const(&self, of: &str, name: &str) -> Option<&Type> {
-        let found = self.traits.get(of)?;
+    /// The trait that declares a constant, which is `of` or one that it needs, and the constant's type.
+    pub fn declared_const(&self, of: &str, name: &str) -> Option<(&str, &Type)> {
+        let (of, found) = self.traits.get_key_value(of)?;
         let supers = || found.supers.iter().find_map(|of| self.declared_const(of, name));
-        found.consts.get(name).or_else(supers)
+        found.consts.get(name).map(|ty| (of.as_str(), ty)).or_else(supers)
     }
 
     /// The enum and the variant that a path ends with, and the variant's position.

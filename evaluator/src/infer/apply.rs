@@ -58,10 +58,15 @@ fn apply_to_expr(e: &mut Expr, known: &Known) {
     let go = |e: &mut Expr| apply_to_expr(e, known);
     match &mut e.kind {
         ExprKind::Int(_, ty) => *ty = ty.or_else(|| known.literals.get(&e.span).copied()),
+        ExprKind::Path(path) => {
+            // A constant or a function of a type; one name is a variable.
+            if let (Some(key), true) = (known.methods.get(&e.span), path.len() > 1) {
+                *path = vec![key.clone()];
+            }
+        }
         ExprKind::Float(..)
         | ExprKind::Bool(_)
         | ExprKind::Str(_)
-        | ExprKind::Path(_)
         | ExprKind::Break(_)
         | ExprKind::Continue(_) => {}
         ExprKind::Unary(_, a)
@@ -169,14 +174,18 @@ fn apply_to_expr(e: &mut Expr, known: &Known) {
 }
 
 /// Generic arguments with the types that were found: those that are stated, then the others. What is not known is `()`.
-fn fill_arguments(stated: Vec<Expr>, types: &[Option<String>], span: Span) -> Vec<Expr> {
+fn fill_arguments(stated: Vec<Expr>, types: &[Option<Type>], span: Span) -> Vec<Expr> {
     let owner = generic_arguments(&stated).1.and_then(|_| stated.last().cloned());
     let count = stated.len() - usize::from(owner.is_some());
     let mut stated = stated.into_iter().take(count);
     let each = types.iter().map(|ty| {
         let given = stated.next();
         let kind = match (ty, given) {
-            (Some(name), _) => ExprKind::Path(vec![name.clone()]),
+            (Some(Type::Name(name, args)), _) if args.is_empty() => ExprKind::Path(vec![name.clone()]),
+            (Some(ty), _) => {
+                let kind = ExprKind::Path(Vec::new());
+                ExprKind::Cast(Box::new(Expr { kind, span }), ty.clone())
+            }
             (None, Some(given)) => return given,
             (None, None) => ExprKind::Tuple(Vec::new()),
         };

@@ -63,11 +63,16 @@ impl<'l> Checker<'l> {
             self.infer_loose_args(args);
             return Ty::Unknown;
         }
+        if args.is_empty()
+            && let Some(found) = self.owned_constant(path, constants, span)
+        {
+            return found;
+        }
         if let [ty, of, name] = path {
             return self.qualified_call((ty, of, name), constants, args, span);
         }
         if let [of, name] = path {
-            if let Some(found) = self.of_type(of, name, args, span) {
+            if let Some(found) = self.of_type((of, name), constants, args, span) {
                 return found;
             }
             if let Some(function) = library.functions.get(&path.join("::")) {

@@ -21,9 +21,9 @@ pub fn check_declared(library: &Library, reached: &BTreeSet<String>, errors: &mu
     let constants = || {
         library.implements.iter().flat_map(|(ty, of)| {
             let declared = library.traits.get(of).into_iter().flat_map(|of| &of.consts);
-            declared.filter_map(move |(name, declared)| {
-                let given = library.consts.get(&format!("{ty}::{name}"))?;
-                Some((of, declared, given))
+            declared.flat_map(move |(name, declared)| {
+                let keys = library.trait_constants(ty, of, name).into_iter();
+                keys.map(move |key| (of, declared, &library.consts[key]))
             })
         })
     };

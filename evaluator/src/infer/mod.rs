@@ -37,8 +37,8 @@ struct Known {
     literals: HashMap<Span, IntType>,
     /// Library functions behind methods of numbers, vectors and the like, and behind calls that their types distinguish.
     methods: HashMap<Span, String>,
-    /// Calls of functions with type parameters: the function's key, and the names of the types.
-    instances: HashMap<Span, (String, Vec<Option<String>>)>,
+    /// Calls of functions with type parameters: the function's key, and the types.
+    instances: HashMap<Span, (String, Vec<Option<SourceType>>)>,
 }
 
 /// Results of inference by the name of the item; those of expressions outside of items that the kernel reaches, by the empty name.
@@ -332,6 +332,7 @@ impl<'l> Checker<'l> {
     }
 
     fn check_constant(&mut self, constant: &'l Const) {
+        self.bounds = Some(&constant.bounds);
         self.declare_generics(&constant.generics, constant.value.span);
         let ty = self.convert_type(&constant.ty, constant.value.span);
         self.check_expr(&constant.value, &ty);

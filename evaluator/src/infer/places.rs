@@ -121,6 +121,12 @@ impl<'l> Checker<'l> {
         let joined = path.join("::");
         let last = path.last().map(String::as_str).unwrap_or_default();
         let library = self.library;
+        if let [of, name] = path
+            && !library.broken.contains(&joined)
+            && let Some(found) = self.constant_by_type(of, name, span)
+        {
+            return (found, Access::Writable);
+        }
         if library.find_variant(path).is_some()
             && let Some((ty, fields, types)) = self.made_by(path)
         {

@@ -5,7 +5,7 @@ use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::glam::public_fields;
 use crate::front::name::Name;
-use crate::front::tree::{Expr, Fields, Generic, Type};
+use crate::front::tree::{Expr, ExprKind, Fields, Generic, Type};
 use std::collections::HashMap;
 
 impl<'l> Checker<'l> {
@@ -118,7 +118,31 @@ impl<'l> Checker<'l> {
             };
             self.errors.push(error);
         }
-        Some(self.check_arguments(args, &types, ty))
+        let made = self.check_arguments(args, &types, ty);
+        for ((_, stated, _), value) in fields.iter().zip(args) {
+            self.length_argument(stated, value, &made);
+        }
+        Some(made)
+    }
+
+    /// Finds the constant among the arguments of a structure that is the length of an array in it, from the array as it is written.
+    fn length_argument(&mut self, stated: &Type, value: &Expr, made: &Ty) {
+        let (Type::Array(element, Some(len)), Ty::Struct(name, args)) = (stated, made) else {
+            return;
+        };
+        let (first, count) = match &value.kind {
+            ExprKind::Array(parts) => (parts.first(), Some(parts.len() as i64)),
+            ExprKind::Repeat(value, count) => (Some(&**value), count.known_constant()),
+            _ => return,
+        };
+        let generics = &self.library.structs[name].generics;
+        let is_len = |generic: &Generic| matches!(&len.kind, ExprKind::Path(path) if path.len() == 1 && path[0] == generic.name());
+        if let (Some(count), Some(k)) = (count, generics.iter().position(is_len)) {
+            self.table.unify(&args[k], &Ty::Const(count));
+        }
+        if let Some(first) = first {
+            self.length_argument(element, first, made);
+        }
     }
 
     /// `Name { field: value }`, of a structure or a variant.
@@ -128,7 +152,10 @@ impl<'l> Checker<'l> {
         };
         for (field, value) in fields {
             match known.iter().position(|(name, ..)| name == field) {
-                Some(k) => self.check_expr(value, &types[k]),
+                Some(k) => {
+                    self.check_expr(value, &types[k]);
+                    self.length_argument(&known[k].1, value, &ty);
+                }
                 None => {
                     self.infer_expr(value, None);
                 }
@@ -221,9 +248,8 @@ impl<'l> Checker<'l> {
 
 /// Type arguments by the names of their parameters.
 fn named_arguments(generics: &[Generic], args: &[Ty]) -> HashMap<String, Ty> {
-    let named = generics.iter().zip(args).filter_map(|(generic, ty)| match generic {
-        Generic::Type(name) => Some((name.clone(), ty.clone())),
-        Generic::Const(..) => None,
-    });
-    named.collect()
+    let named = generics.iter().zip(args);
+    named
+        .map(|(generic, ty)| (generic.name().to_owned(), ty.clone()))
+        .collect()
 }

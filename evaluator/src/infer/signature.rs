@@ -57,6 +57,25 @@ impl<'l> Checker<'l> {
         }
     }
 
+    /// A constant among the arguments of a type, as far as it is a literal, a constant that is one, or known by its name.
+    fn constant_argument(&mut self, argument: &'l Type, given: &HashMap<String, Ty>) -> Ty {
+        let name = match argument {
+            Type::Const(value) => match (&value.kind, value.known_constant()) {
+                (_, Some(value)) => return Ty::Const(value),
+                (ExprKind::Path(path), None) if path.len() == 1 => Some(&path[0]),
+                _ => None,
+            },
+            Type::Name(name, args) if args.is_empty() => Some(name),
+            _ => None,
+        };
+        let known = name.and_then(|name| given.get(name)).cloned();
+        let constant = || {
+            let name = name.filter(|name| self.locals.iter().all(|local| local.name != **name))?;
+            self.library.consts.get(name)?.value.known_constant().map(Ty::Const)
+        };
+        known.or_else(constant).unwrap_or_else(|| self.table.fresh(Kind::Any))
+    }
+
     pub fn convert_named_type(&mut self, name: &str, args: &'l [Type], given: &HashMap<String, Ty>, span: Span) -> Ty {
         if let Some(ty) = given.get(name) {
             return ty.clone();
@@ -139,7 +158,8 @@ impl<'l> Checker<'l> {
             .enumerate()
             .map(|(k, generic)| match (generic, args.get(k)) {
                 (Generic::Type(_), Some(ty)) => self.substitute_type(ty, given, span),
-                _ => self.table.fresh(Kind::Any),
+                (Generic::Const(..), Some(argument)) => self.constant_argument(argument, given),
+                (_, None) => self.table.fresh(Kind::Any),
             });
         each.collect()
     }
@@ -171,6 +191,7 @@ impl<'l> Checker<'l> {
             ExprKind::Path(path) if path.len() == 1 => {
                 self.convert_named_type(&path[0], &[], &HashMap::new(), stated.span)
             }
+            ExprKind::Cast(_, ty) => self.convert_type(ty, stated.span),
             ExprKind::Repeat(element, _) => Ty::Array(Box::new(self.type_argument(element))),
             ExprKind::Tuple(parts) if !parts.is_empty() => {
                 Ty::Tuple(parts.iter().map(|part| self.type_argument(part)).collect())
@@ -194,11 +215,19 @@ impl<'l> Checker<'l> {
                     };
                     given.insert(name.clone(), ty);
                 }
-                Generic::Const(_, ty) => {
-                    if let Some(constant) = stated.get(k).filter(|stated| !is_inferred(stated)) {
+                Generic::Const(name, ty) => {
+                    let constant = stated.get(k).filter(|stated| !is_inferred(stated));
+                    if let Some(constant) = constant {
                         let ty = self.substitute_type(ty, &HashMap::new(), constant.span);
                         self.check_expr(constant, &ty);
                     }
+                    let of_owner = owner.and_then(|owner| function.argument_of(owner, name));
+                    let value = match (constant.map(Expr::known_constant), of_owner) {
+                        (Some(Some(value)), _) => Ty::Const(value),
+                        (None, Some(argument)) => self.constant_argument(argument, &HashMap::new()),
+                        _ => self.table.fresh(Kind::Any),
+                    };
+                    given.insert(name.clone(), value);
                 }
             }
         }

@@ -3,7 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Function, Generic};
+use crate::front::tree::{Expr, ExprKind, Function, Generic, Type, qualify_name};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
 
@@ -134,7 +134,10 @@ impl<'l> Checker<'l> {
             true => keys.iter().copied().filter(|other| *other != key).collect(),
             false => Vec::new(),
         };
-        if let Some((other, _)) = self.select_overload(&others, found) {
+        if let Some((other, of_other)) = self.select_overload(&others, found) {
+            if function.of.as_ref().zip(of_other.of.as_ref()).is_some_and(|(a, b)| a.is_apart(b, &|_| false)) {
+                return self.one_of_several(&others, (key, function), found, span);
+            }
             self.errors.push(
                 Diagnostic::error_at(
                     Code::TraitBound,
@@ -148,6 +151,34 @@ impl<'l> Checker<'l> {
         }
         self.methods.insert(span, key.to_owned());
         self.called_with(function, key, found, span)
+    }
+
+    /// A call of one of the functions of several `impl`s of a type, of which the value alone tells the arguments: the type of the
+    /// result, if all of them give the same.
+    fn one_of_several(
+        &mut self,
+        others: &[&'l str],
+        (key, function): (&'l str, &'l Function),
+        found: &[Ty],
+        span: Span,
+    ) -> Ty {
+        let library = self.library;
+        let fitting: Vec<&str> = others
+            .iter()
+            .copied()
+            .filter(|other| self.select_overload(&[*other], found).is_some())
+            .collect();
+        let (table, instances) = (self.table.clone(), self.instances.len());
+        let first = self.called_with(function, key, found, span);
+        let first = self.table.resolve_deep(&first);
+        let is_same = fitting.iter().all(|other| {
+            self.table = table.clone();
+            let result = self.called_with(&library.functions[*other], other, found, span);
+            self.table.resolve_deep(&result) == first
+        });
+        self.table = table;
+        self.instances.truncate(instances);
+        if is_same { first } else { Ty::Unknown }
     }
 
     /// Returns the type of a function's result for arguments of some types.
@@ -186,10 +217,10 @@ impl<'l> Checker<'l> {
             .iter()
             .any(|generic| matches!(generic, Generic::Type(_)))
         {
-            let types = function
-                .generics
-                .iter()
-                .map(|generic| given.get(generic.name()).cloned());
+            let types = function.generics.iter().map(|generic| match generic {
+                Generic::Type(name) => given.get(name).cloned(),
+                Generic::Const(..) => None,
+            });
             self.instances.push(Instance {
                 span,
                 key: key.to_owned(),
@@ -212,9 +243,15 @@ impl<'l> Checker<'l> {
 
     /// The type of a constant of a type parameter.
     pub fn constant_of(&mut self, parameter: &str, name: &str, span: Span) -> Option<Ty> {
-        let library = self.library;
         let traits = self.traits_of(parameter);
-        let ty = traits.iter().find_map(|of| library.declared_const(of, name))?;
+        self.constant_of_traits(parameter, &traits, name, span)
+    }
+
+    /// The type of a constant of one of a type parameter's traits. Evaluation finds the constant of this trait for the parameter's type.
+    pub fn constant_of_traits(&mut self, parameter: &str, traits: &[String], name: &str, span: Span) -> Option<Ty> {
+        let library = self.library;
+        let (of, ty) = traits.iter().find_map(|of| library.declared_const(of, name))?;
+        self.methods.insert(span, qualify_name(parameter, of, name));
         let given = HashMap::from([("Self".to_owned(), Ty::Param(parameter.to_owned()))]);
         Some(self.substitute_type(ty, &given, span))
     }
@@ -326,7 +363,8 @@ impl<'l> Checker<'l> {
         let (Ty::Struct(ty, _) | Ty::Enum(ty, _)) = self.table.resolve_shallow(operand) else {
             return None;
         };
-        let function = &library.functions[*library.trait_keys(&ty, of, name).first()?];
+        let keys = library.trait_keys(&ty, of, name);
+        let (_, function) = self.select_overload(&keys, std::slice::from_ref(operand))?;
         let given = self.instantiate_function(function, &[]);
         let own = self.substitute_type(&function.params.first()?.ty, &given, function.span);
         self.table.unify(&own, operand);
@@ -468,16 +506,31 @@ impl<'l> Checker<'l> {
         );
     }
 
-    /// The types of calls with type parameters, by their places: what each function goes by, and the names of the types.
-    pub fn named_instances(&mut self) -> HashMap<Span, (String, Vec<Option<String>>)> {
+    /// The types of calls with type parameters, by their places: the key of each function, and the types.
+    pub fn named_instances(&mut self) -> HashMap<Span, (String, Vec<Option<Type>>)> {
         let mut named = HashMap::new();
         for Instance { span, key, types } in std::mem::take(&mut self.instances) {
-            let names = types.iter().map(|ty| match self.table.resolve_shallow(ty.as_ref()?) {
-                Ty::Param(name) => self.params.contains(&name).then_some(name),
-                other => self.type_name(&other),
-            });
-            named.insert(span, (key, names.collect()));
+            let types = types.iter().map(|ty| self.written_type(ty.as_ref()?, span));
+            named.insert(span, (key, types.collect()));
         }
         named
+    }
+
+    /// A type as it is written, with `_` for arguments that are not known; `None` of a type without a name.
+    fn written_type(&self, ty: &Ty, span: Span) -> Option<Type> {
+        let plain = |name: String| Type::Name(name, Vec::new());
+        match self.table.resolve_shallow(ty) {
+            Ty::Param(name) => self.params.contains(&name).then(|| plain(name)),
+            Ty::Const(value) => {
+                let kind = ExprKind::Int(value, None);
+                Some(Type::Const(Box::new(Expr { kind, span })))
+            }
+            Ty::Struct(name, args) => {
+                let args = args.iter().map(|arg| self.written_type(arg, span));
+                let args = args.map(|arg| arg.unwrap_or_else(|| plain(crate::front::INFERRED.to_owned())));
+                Some(Type::Name(name, args.collect()))
+            }
+            other => self.type_name(&other).map(plain),
+        }
     }
 }

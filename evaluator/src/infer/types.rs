@@ -52,6 +52,8 @@ pub enum Ty {
     Fn(Vec<Ty>, Box<Ty>),
     /// A type parameter of the function that is looked at.
     Param(String),
+    /// A constant among the arguments of a type: the 3 of `Window<3>`.
+    Const(i64),
     /// Of what never gives a value: `return`, `break`.
     Never,
     /// Nothing is known of it, and nothing is said against it.
@@ -279,6 +281,7 @@ impl fmt::Display for Ty {
             Ty::Range(t) => write!(f, "Range<{t}>"),
             Ty::Iter(t) => write!(f, "an iterator over {t}"),
             Ty::Param(name) => f.write_str(name),
+            Ty::Const(value) => write!(f, "{value}"),
             Ty::Struct(name, args) | Ty::Enum(name, args) if args.is_empty() => f.write_str(name),
             Ty::Struct(name, args) | Ty::Enum(name, args) => {
                 let args: Vec<String> = args.iter().map(Ty::to_string).collect();

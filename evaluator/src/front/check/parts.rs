@@ -117,6 +117,8 @@ impl Check {
     /// A path, of which the last two segments count; `last` tells whether the last may have generic arguments. A type may.
     pub fn check_path(&mut self, path: &mut syn::Path, last: bool) {
         let count = path.segments.len();
+        let name = path.segments.last().map(|last| last.ident.to_string());
+        let is_constant = name.is_some_and(|name| !name.contains(char::is_lowercase));
         for (k, segment) in path.segments.iter_mut().enumerate() {
             let list = match &mut segment.arguments {
                 syn::PathArguments::None => continue,
@@ -128,8 +130,8 @@ impl Check {
                 }
             };
             let of_type = segment.ident.to_string().starts_with(char::is_uppercase);
-            // A structure without fields is a value: `Window::<3>`.
-            let is_value = of_type && k + 1 == count;
+            // A structure without fields is a value: `Window::<3>`, and a constant: `Window::<3>::SIZE`.
+            let is_value = of_type && (k + 1 == count || is_constant && k + 2 == count);
             if !(last || is_value) || k + 2 < count || (k + 1 < count && !of_type) {
                 let shown = super::super::cfg::as_written(list);
                 let shown = shown.trim_start_matches("::").to_owned();
