@@ -185,6 +185,11 @@ impl<'a> Evaluator<'a> {
         if let Some(value) = self.quad_function(path, &values, span)? {
             return Ok(value);
         }
+        if let ([.., of, name], [left, right]) = (path, values.as_slice())
+            && let Some(op) = crate::infer::operator_function(of, name)
+        {
+            return self.eval_binary(op, left, right, span);
+        }
         if let Some((kind, lanes)) = parse_constructor(path) {
             return self.compose_vector(kind, lanes, &values, span);
         }
@@ -476,7 +481,7 @@ fn called_at(needs: Vec<ConstantDemand>, span: Span, name: &str) -> Vec<Constant
 }
 
 /// Parses `vec3`, `Vec3::new`, ...
-fn parse_constructor(path: &[String]) -> Option<(Scalar, u8)> {
+pub fn parse_constructor(path: &[String]) -> Option<(Scalar, u8)> {
     match path {
         [.., ty, new] if new == "new" => vector_type(ty),
         [.., name] => {

@@ -1,7 +1,6 @@
 //! Resolution of paths: variable, constant, function, variant.
 
 use super::Evaluator;
-use super::call::vector_type;
 use super::enums::EnumValue;
 use super::types::KnownType;
 use super::value::{Eval, Exit, Value};
@@ -51,7 +50,8 @@ impl Evaluator<'_> {
                     false => Value::Function(path.to_vec()),
                 });
             }
-            if !self.library.consts.contains_key(&path.join("::")) {
+            let joined = path.join("::");
+            if !self.library.consts.contains_key(&joined) && !self.library.functions.contains_key(&joined) {
                 let names: Vec<&str> = found.variants.iter().map(|v| v.name.as_str()).collect();
                 return Err(Diagnostic::error_at(
                     Code::UnknownVariant,
@@ -96,12 +96,17 @@ impl Evaluator<'_> {
     fn is_function(&self, path: &[String]) -> bool {
         let functions = &self.library.functions;
         match path {
-            [name] => functions.contains_key(name) || crate::front::UNARY.contains(&name.as_str()),
+            [name] => {
+                functions.contains_key(name)
+                    || crate::front::UNARY.contains(&name.as_str())
+                    || self.library.is_tuple_structure(name)
+                    || super::call::parse_constructor(path).is_some()
+            }
             [.., ty, name] => {
                 functions.contains_key(&path.join("::"))
                     || functions.contains_key(name)
-                    || ((vector_type(ty).is_some() || matches!(ty.as_str(), "f32" | "i32" | "u32"))
-                        && name.starts_with(char::is_lowercase))
+                    || crate::infer::operator_function(ty, name).is_some()
+                    || (crate::front::is_prelude_type(ty) && name.starts_with(char::is_lowercase))
             }
             [] => false,
         }

@@ -52,7 +52,7 @@ use ::std::collections::BTreeSet;
 use ::std::sync::Arc;
 
 pub use expr::INFERRED;
-pub use foreign::{is_by_last, is_prelude_type};
+pub use foreign::{is_by_last, is_prelude_type, is_resource};
 pub use kernels::kernel_of;
 pub use looping::looping_statements;
 pub use raw::{raw_name, unraw};

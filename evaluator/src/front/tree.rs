@@ -659,6 +659,12 @@ impl Library {
         self.structs.contains_key(name) || self.enums.contains_key(name)
     }
 
+    /// Returns whether a structure has fields without names, so that its name is a function of them.
+    pub fn is_tuple_structure(&self, name: &str) -> bool {
+        let first = self.structs.get(name).and_then(|definition| definition.fields.first());
+        first.is_some_and(|(field, ..)| field.parse::<usize>().is_ok())
+    }
+
     /// Keys of the functions that `Type::name` may mean: those of the type itself alone, or those of traits.
     pub fn method_keys(&self, ty: &str, name: &str) -> Vec<&str> {
         let mut keys = self.member_keys(ty, name);

@@ -187,12 +187,7 @@ impl<'l> Checker<'l> {
     }
 
     fn known_call(&mut self, path: &[&str], args: &'l [Expr], span: Span) -> Ty {
-        if let Some(ty) = constructed_type(path) {
-            let wanted = match &ty {
-                Ty::Vector(kind, lanes) => vec![Ty::scalar(*kind); usize::from(*lanes)],
-                Ty::Matrix(n) => vec![Ty::Vector(Scalar::F32, *n); usize::from(*n)],
-                _ => Vec::new(),
-            };
+        if let Some((ty, wanted)) = constructor_signature(path) {
             if args.len() != wanted.len() {
                 self.note_argument_count(path.join("::"), wanted.len(), args.len(), span);
             }
@@ -545,6 +540,17 @@ Code::QuadMessage,
         }
         self.table.resolve_shallow(ty)
     }
+}
+
+/// The type that a constructor of glam makes, and the types of its parameters.
+pub fn constructor_signature(path: &[&str]) -> Option<(Ty, Vec<Ty>)> {
+    let made = constructed_type(path)?;
+    let parts = match &made {
+        Ty::Vector(kind, lanes) => vec![Ty::scalar(*kind); usize::from(*lanes)],
+        Ty::Matrix(n) => vec![Ty::Vector(Scalar::F32, *n); usize::from(*n)],
+        _ => Vec::new(),
+    };
+    Some((made, parts))
 }
 
 /// `vec3`, `Vec3::new`, `mat3`, `Mat3::from_cols`.

@@ -4,7 +4,7 @@ use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::UNARY;
-use crate::front::tree::{Closure, Expr};
+use crate::front::tree::{Closure, Expr, IntType};
 use crate::ir::Scalar;
 
 impl<'l> Checker<'l> {
@@ -124,15 +124,27 @@ impl<'l> Checker<'l> {
             let of = self.table.fresh(Kind::Any);
             return Some(Ty::Fn(vec![of.clone()], Box::new(of)));
         }
+        let names: Vec<&str> = path.iter().map(String::as_str).collect();
+        if let Some((made, parts)) = super::calls::constructor_signature(&names) {
+            return Some(Ty::Fn(parts, Box::new(made)));
+        }
         let [.., ty, method] = path else { return None };
+        if super::operator_function(ty, method).is_some() {
+            let own = match super::signature::vector(ty) {
+                Some((kind, lanes)) => Ty::Vector(kind, lanes),
+                None if ty == "f32" => Ty::Float,
+                None => IntType::from_name(ty).map_or_else(|| self.table.fresh(Kind::Any), Ty::Int),
+            };
+            let other = self.table.fresh(Kind::Any);
+            return Some(Ty::Fn(vec![own.clone(), other], Box::new(own)));
+        }
         let receiver = match ty.as_str() {
             "f32" => Ty::Float,
-            "i32" => Ty::I32,
-            "u32" => Ty::U32,
-            other => {
-                let (kind, lanes) = super::signature::vector(other)?;
-                Ty::Vector(kind, lanes)
-            }
+            "Mat2" | "Mat3" | "Mat4" => return None,
+            other => match (IntType::from_name(other), super::signature::vector(other)) {
+                (Some(kind), _) => Ty::Int(kind),
+                (None, vector) => vector.map(|(kind, lanes)| Ty::Vector(kind, lanes))?,
+            },
         };
         // A constant of the type is in capitals.
         if method.starts_with(char::is_uppercase) {
@@ -143,6 +155,17 @@ impl<'l> Checker<'l> {
             ("min" | "max", _) | ("powf" | "atan2", Ty::Float) | ("cross", Ty::Vector(Scalar::F32, 3)) => {
                 Some((vec![own(), own()], own()))
             }
+            ("powi", Ty::Float) => Some((vec![own(), Ty::I32], own())),
+            ("lerp", Ty::Float | Ty::Vector(Scalar::F32, _)) => Some((vec![own(), own(), Ty::Float], own())),
+            // The evaluator knows what it takes.
+            ("from", _) => Some((vec![self.table.fresh(Kind::Any)], own())),
+            ("from_bits", Ty::Float) => Some((vec![Ty::U32], own())),
+            ("splat", Ty::Vector(kind, _)) => Some((vec![Ty::scalar(*kind)], own())),
+            ("from_array", Ty::Vector(kind, _)) => Some((vec![Ty::Array(Box::new(Ty::scalar(*kind)))], own())),
+            ("extend", Ty::Vector(kind, lanes @ 2..4)) => {
+                Some((vec![own(), Ty::scalar(*kind)], Ty::Vector(*kind, lanes + 1)))
+            }
+            ("reflect", Ty::Vector(Scalar::F32, _)) => Some((vec![own(), own()], own())),
             ("rem_euclid" | "div_euclid" | "wrapping_add" | "wrapping_sub" | "wrapping_mul", Ty::Int(_)) => {
                 Some((vec![own(), own()], own()))
             }

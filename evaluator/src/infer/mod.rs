@@ -28,7 +28,7 @@ use crate::front::tree::{Const, Expr, Fields, Function, Generic, IntType, Librar
 use std::collections::{BTreeSet, HashMap};
 use types::{Kind, Table, Ty};
 
-pub use traits::trait_of;
+pub use traits::{operator_function, trait_of};
 
 /// Results of inference for the expressions of an item, by their places.
 #[derive(Default)]

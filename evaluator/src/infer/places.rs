@@ -156,6 +156,11 @@ impl<'l> Checker<'l> {
         if library.broken.contains(&joined) || library.broken.contains(last) {
             return (Ty::Unknown, Access::Writable);
         }
+        if library.is_tuple_structure(last)
+            && let Some((ty, _, types)) = self.made_by(path)
+        {
+            return (Ty::Fn(types, Box::new(ty)), Access::Writable);
+        }
         if let Some(constant) = library.consts.get(&joined).or_else(|| library.consts.get(last)) {
             return (self.field_type(&constant.ty, constant.value.span), Access::Writable);
         }

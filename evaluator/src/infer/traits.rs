@@ -49,6 +49,29 @@ pub fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
     })
 }
 
+/// The operator whose function a path names, as a value: `f32::add`, `Add::add`. The type may be a trait.
+pub fn operator_function(of: &str, name: &str) -> Option<BinaryOp> {
+    const OPERATORS: [BinaryOp; 10] = [
+        BinaryOp::Add,
+        BinaryOp::Sub,
+        BinaryOp::Mul,
+        BinaryOp::Div,
+        BinaryOp::Rem,
+        BinaryOp::And,
+        BinaryOp::Or,
+        BinaryOp::Xor,
+        BinaryOp::Shl,
+        BinaryOp::Shr,
+    ];
+    let is_it = |op: &BinaryOp| trait_of(*op).is_some_and(|(own, function)| function == name && (own == of || is_number(of)));
+    OPERATORS.into_iter().find(is_it)
+}
+
+/// Returns whether a type is a number, a vector or a matrix.
+fn is_number(ty: &str) -> bool {
+    crate::front::is_prelude_type(ty) && !crate::front::is_resource(ty)
+}
+
 impl<'l> Checker<'l> {
     /// Returns the name under which a type's functions are listed; `None` for a type that has no name, or is not known yet.
     pub fn type_name(&self, ty: &Ty) -> Option<String> {
