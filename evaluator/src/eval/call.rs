@@ -145,6 +145,9 @@ impl<'a> Evaluator<'a> {
     /// Calls a function by its path.
     pub fn call_path(&mut self, path: &[String], constants: &[Value], values: Vec<Value>, span: Span) -> Eval {
         let last = path.last().map(String::as_str).unwrap_or_default();
+        if let Some(value) = self.sequence_call(path, &values, span)? {
+            return Ok(value);
+        }
         if let [ty, name] = path {
             let method = format!("{ty}::{name}");
             if self.library.functions.contains_key(&method) {

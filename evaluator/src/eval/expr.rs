@@ -170,7 +170,7 @@ impl Evaluator<'_> {
     }
 
     /// Returns a value unless it has too many parts.
-    fn check_size(&self, value: Value, span: Span) -> Eval {
+    pub fn check_size(&self, value: Value, span: Span) -> Eval {
         if value.count_parts(MAX_PARTS) > MAX_PARTS {
             return Err(too_many_parts(span));
         }

@@ -51,6 +51,7 @@ impl Evaluator<'_> {
                 }
             },
             Value::Table(_) => self.rows(value, span),
+            Value::Endless(_) => self.collect_endless(value, span),
             Value::Node(id) if self.ty(*id).is_array() => self.rows(value, span),
             Value::Ref(_) => match self.elements_mut(value, span)? {
                 Value::Array(elements) => Ok(elements.to_vec()),
@@ -71,6 +72,7 @@ impl Evaluator<'_> {
         match (name, args) {
             ("len" | "count", []) => Ok(Value::Int(items.len() as i64)),
             ("iter" | "into_iter" | "copied" | "cloned", []) => Ok(Value::array(items)),
+            ("cycle", []) => Ok(Self::cycled(items)),
             ("enumerate", []) => {
                 let pair = |(k, item): (usize, Value)| Value::Tuple(vec![Value::Int(k as i64), item]);
                 Ok(Value::array(items.into_iter().enumerate().map(pair).collect()))
@@ -103,7 +105,11 @@ impl Evaluator<'_> {
                 Ok(Value::array(items))
             }
             ("zip" | "chain", [other]) => {
-                let others = self.collect_items(other, span)?;
+                let other = match name {
+                    "zip" => self.as_many(other, items.len(), span)?,
+                    _ => other.clone(),
+                };
+                let others = self.collect_items(&other, span)?;
                 let both = match name {
                     "zip" => {
                         let pairs = items.into_iter().zip(others);

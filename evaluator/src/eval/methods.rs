@@ -122,6 +122,7 @@ impl<'a> Evaluator<'a> {
                 self.range_method(range, name, &args, span)
             }
             Value::Range(_) => self.iterator_method(&value, name, &args, span),
+            Value::Endless(_) => self.endless_method(&value, name, &args, span),
             Value::Array(_) | Value::Table(_) | Value::Node(_) if name == "iter_mut" && args.is_empty() => {
                 match place {
                     Some(place) => self.elements_mut(&Value::Ref(Rc::new(place)), span),

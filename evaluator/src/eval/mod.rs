@@ -16,6 +16,7 @@ mod consts;
 mod control;
 mod effects;
 mod entry;
+mod endless;
 mod enums;
 mod expr;
 mod functions;

@@ -1,5 +1,6 @@
 //! Values that variables hold while a kernel is evaluated.
 
+use super::endless::Endless;
 use super::enums::EnumValue;
 use super::types::KnownType;
 use crate::diagnostic::{Diagnostic, Span};
@@ -59,6 +60,8 @@ pub enum Value {
     /// A choice among functions and closures, selected by a runtime value: a boolean for two (`true` selects the
     /// second), an `i32` for more.
     OneOf(NodeId, Rc<Vec<Value>>),
+    /// A sequence of `std::iter` whose length no method has limited.
+    Endless(Rc<Endless>),
     /// `array::from_fn(f)`: the length is known only from the stated type.
     Elements(Rc<Value>),
     /// A constant parameter of a structure's type, stored as a hidden field: the 3 of `Window<3>`, or 1 for `true`.
@@ -287,6 +290,7 @@ impl Value {
             Value::Array(parts) => format!("an array of {}", parts.len()),
             Value::Table(table) => format!("an array of {}", table.len),
             Value::Range(_) => "a range".to_owned(),
+            Value::Endless(_) => "a sequence without a length".to_owned(),
             Value::Str(_) => "a text".to_owned(),
             Value::Texture(_) => "a texture".to_owned(),
             Value::Sampler(_) => "a sampler".to_owned(),

@@ -82,7 +82,6 @@ const TEXTS: &[(Receiver, &str, &str)] = &[
     (List, "next", "items[k]` in a loop over `k"),
     (List, "size_hint", "items.len()"),
     (List, "scan", "for x in items` with a variable"),
-    (List, "cycle", "items[k % items.len()]"),
     (List, "fuse", "items.iter()"),
     (List, "by_ref", "items[k]` in a loop over `k"),
     (List, "eq", "a == b"),

@@ -68,6 +68,9 @@ impl<'l> Checker<'l> {
         {
             return found;
         }
+        if let Some(found) = self.infer_sequence(path, args, span) {
+            return found;
+        }
         if let [ty, of, name] = path {
             return self.qualified_call((ty, of, name), constants, args, span);
         }

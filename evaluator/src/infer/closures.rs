@@ -196,6 +196,56 @@ impl<'l> Checker<'l> {
         }
     }
 
+    /// A call of a function of `std::iter`; `None` of other functions.
+    pub fn infer_sequence(&mut self, path: &[String], args: &'l [Expr], span: Span) -> Option<Ty> {
+        let (name, of_module) = match path {
+            [name] => (name.as_str(), false),
+            [module, name] if module == "iter" => (name.as_str(), true),
+            _ => return None,
+        };
+        let own = self.library.functions.get(name);
+        if !of_module && own.is_some_and(|own| own.span.file != crate::front::std::FILE) {
+            return None;
+        }
+        let item = match (name, args) {
+            ("once" | "repeat", [value]) => self.infer_expr(value, None),
+            ("empty", []) => self.table.fresh(Kind::Any),
+            ("repeat_n", [value, count]) => {
+                self.check_expr(count, &Ty::USIZE);
+                self.infer_expr(value, None)
+            }
+            ("successors", [first, f]) => {
+                let item = self.table.fresh(Kind::Any);
+                let option = Ty::Enum("Option".to_owned(), vec![item.clone()]);
+                self.check_expr(first, &option);
+                self.check_expr(f, &Ty::Fn(vec![item.clone().into_shared_ref()], Box::new(option)));
+                item
+            }
+            ("zip", [a, b]) => {
+                let parts = [a, b].map(|part| {
+                    let found = self.infer_expr(part, None);
+                    self.item_type(&found).unwrap_or(Ty::Unknown)
+                });
+                Ty::Tuple(parts.to_vec())
+            }
+            ("from_fn" | "repeat_with" | "once_with", [_]) if of_module => {
+                self.errors.push(
+                    Diagnostic::error_at(
+                        Code::NotInLanguage,
+                        span,
+                        format!("`iter::{name}` is not part of the kernel language"),
+                    )
+                    .label("not supported")
+                    .note("how often it calls the closure would depend on what takes the values")
+                    .help("write a `for` that calls the closure, or `iter::successors` from each value to the next"),
+                );
+                Ty::Unknown
+            }
+            _ => return None,
+        };
+        Some(Ty::Iter(Box::new(item)))
+    }
+
     /// A method of an iterator over items; `None` if it is none of these.
     pub fn infer_adaptor(&mut self, item: &Ty, name: &str, args: &'l [Expr]) -> Option<Ty> {
         let iter = |item: Ty| Ty::Iter(Box::new(item));

@@ -234,7 +234,7 @@ impl<'l> Checker<'l> {
                 self.unknown_method(args)
             }
             Ty::Range(item) | Ty::Iter(item) => match name {
-                "rev" => self.check_arguments(args, &[], own),
+                "rev" | "cycle" => self.check_arguments(args, &[], own),
                 "step_by" => self.check_arguments(args, &[Ty::USIZE], own),
                 "contains" => self.check_arguments(args, &[(**item).clone().into_shared_ref()], Ty::Bool),
                 "enumerate" => self.check_arguments(

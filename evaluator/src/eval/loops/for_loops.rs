@@ -120,6 +120,7 @@ impl Evaluator<'_> {
                 _ => return Err(Exit::Noted),
             },
             Value::Table(_) => self.rows(&items, f.over.span)?,
+            Value::Endless(_) => self.collect_endless(&items, f.over.span)?,
             Value::Node(id) if self.ty(id).is_array() => self.rows(&items, f.over.span)?,
             Value::Poison => return Err(Exit::Noted),
             other => {

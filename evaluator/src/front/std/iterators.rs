@@ -1,3 +1,7 @@
+fn successors<T>(last: Option<T>, f: impl Fn(&T) -> Option<T>) -> __Filtered<T> {
+    __Filtered { items: [last.and_then(|x| f(&x)).map(|x| x)] }
+}
+
 struct __Filtered<T> {
     items: [Option<T>],
 }
