@@ -15,6 +15,10 @@ impl Evaluator<'_> {
         let ty = match ty {
             // A mutable reference stays one; if a value or a shared reference is stated, it is read.
             Some(SourceType::Ref(true, _)) => return self.ascribe_reference(value, span),
+            // A type parameter may stand for a reference.
+            Some(SourceType::Name(name, _)) if matches!(value, Value::Ref(_)) && self.is_unknown_name(name) => {
+                return Ok(value);
+            }
             Some(ty) => Some(ty.peel_refs()),
             None => return Ok(value),
         };

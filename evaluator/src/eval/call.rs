@@ -160,6 +160,13 @@ impl<'a> Evaluator<'a> {
         if let Some(value) = self.eval_mem_call(path, &values, span)? {
             return Ok(value);
         }
+        if let Some(value) = self.tuple_struct(last, &values, span)? {
+            return Ok(value);
+        }
+        if self.library.find_variant(path).is_some() {
+            // A mutable reference in an option stays one.
+            return Ok(self.variant_of(path, values, span)?.unwrap_or(Value::Poison));
+        }
         let values = values
             .into_iter()
             .map(|v| self.deref_value(v, span))
@@ -175,12 +182,6 @@ impl<'a> Evaluator<'a> {
         {
             let items = self.collect_items(items, span)?;
             return self.reduced_some(name, &items, span);
-        }
-        if self.library.find_variant(path).is_some() {
-            return Ok(self.variant_of(path, values, span)?.unwrap_or(Value::Poison));
-        }
-        if let Some(value) = self.tuple_struct(last, &values, span)? {
-            return Ok(value);
         }
         if let Some(value) = self.matrix_function(path, &values, span)? {
             return Ok(value);

@@ -1,10 +1,11 @@
 //! Adaptors of iterators over arrays and ranges. An iterator is represented by the list of its values.
 
 use super::Evaluator;
-use super::value::{Eval, Exit, Value};
+use super::value::{Eval, Exit, Place, Step, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text};
 use crate::ir::{BinaryOp, Op};
+use std::rc::Rc;
 
 /// Methods of iterators.
 pub const METHODS: [&str; 22] = [
@@ -184,20 +185,7 @@ impl Evaluator<'_> {
             }
             ("sum" | "product", []) => self.reduce_items(name, items, span),
             ("windows" | "chunks" | "chunks_exact", [count]) => {
-                let Some(n) = self
-                    .known_int(count)
-                    .and_then(|n| usize::try_from(n).ok())
-                    .filter(|n| *n > 0)
-                else {
-                    let error = Diagnostic::error_at(
-                        Code::RuntimeValue,
-                        span,
-                        format!("`{name}` needs a compile-time constant above 0"),
-                    )
-                    .label("a runtime value, or 0")
-                    .help("use a constant, an option, or a loop counter");
-                    return Err(self.demand_of(&[count], error));
-                };
+                let n = self.chunk_size(count, name, span)?;
                 let parts: Vec<&[Value]> = match name {
                     "windows" => items.windows(n).collect(),
                     "chunks" => items.chunks(n).collect(),
@@ -228,6 +216,35 @@ impl Evaluator<'_> {
                     .unwrap_or_else(|| crate::suggest::suggest_name(name, &METHODS, "iterators have")),
             )
             .into()),
+        }
+    }
+
+    /// Returns mutable slices of an array, one after the other.
+    pub fn chunks_mut(&mut self, array: &Value, place: &Place, name: &str, size: &Value, span: Span) -> Eval {
+        let (n, len) = (self.chunk_size(size, name, span)?, self.array_len(array).unwrap_or(0));
+        let whole = if name == "chunks_mut" { len } else { len - len % n };
+        let parts = (0..whole).step_by(n).map(|from| {
+            let len = n.min(whole - from);
+            Value::Ref(Rc::new(place.with_step(Step::Slice { from, len })))
+        });
+        Ok(Value::array(parts.collect()))
+    }
+
+    /// Returns the argument of `chunks` and its like, a compile-time constant above 0.
+    fn chunk_size(&mut self, size: &Value, name: &str, span: Span) -> Eval<usize> {
+        let known = self.known_int(size).and_then(|n| usize::try_from(n).ok());
+        match known.filter(|n| *n > 0) {
+            Some(n) => Ok(n),
+            None => {
+                let error = Diagnostic::error_at(
+                    Code::RuntimeValue,
+                    span,
+                    format!("`{name}` needs a compile-time constant above 0"),
+                )
+                .label("a runtime value, or 0")
+                .help("use a constant, an option, or a loop counter");
+                Err(self.demand_of(&[size], error))
+            }
         }
     }
 

@@ -22,7 +22,7 @@ const INTEGERS: [&str; 7] = [
 
 impl<'a> Evaluator<'a> {
     pub fn eval_method(&mut self, receiver: &Expr, name: &str, constants: &[Expr], args: &[Expr], span: Span) -> Eval {
-        let writing = name == "iter_mut" || self.library.mutating.contains(name.rsplit("::").next().unwrap_or(name));
+        let writing = matches!(name, "iter_mut" | "chunks_mut" | "chunks_exact_mut") || self.library.mutating.contains(name.rsplit("::").next().unwrap_or(name));
         let (value, place) = self.eval_receiver(receiver, writing)?;
         let args = self.eval_all(args)?;
         if args.contains(&Value::Poison) {
@@ -52,9 +52,14 @@ impl<'a> Evaluator<'a> {
             let constants = self.constants_for(Some(function), constants)?;
             return self.inline_function(method, &constants, all, span);
         }
+        // A mutable reference to an array iterates over references to its elements.
+        let joins = matches!(name, "zip" | "chain");
         let args = args
             .into_iter()
-            .map(|v| self.deref_value(v, span))
+            .map(|v| match self.deref_value(v.clone(), span)? {
+                array if joins && self.array_len(&array).is_some() => Ok(v),
+                value => Ok(value),
+            })
             .collect::<Eval<Vec<_>>>()?;
         if let Some(value) = self.eval_conversion(name, &value, span)? {
             return Ok(value);
@@ -131,6 +136,12 @@ impl<'a> Evaluator<'a> {
                         self.elements_mut(&Value::Ref(Rc::new(place)), span)
                     }
                 }
+            }
+            Value::Array(_) | Value::Table(_) | Value::Node(_)
+                if matches!(name, "chunks_mut" | "chunks_exact_mut") && args.len() == 1 =>
+            {
+                let place = place.unwrap_or_else(|| self.add_temporary(value.clone()));
+                self.chunks_mut(&value, &place, name, &args[0], span)
             }
             Value::Array(_) | Value::Table(_) => self.iterator_method(&value, name, &args, span),
             Value::Node(id) if self.ty(*id).is_array() => self.iterator_method(&value, name, &args, span),

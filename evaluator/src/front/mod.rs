@@ -62,11 +62,16 @@ pub use tree::Library;
 pub use whiles::guard_body;
 
 /// Methods of arrays in the library that change their receiver.
-pub const CHANGING: [&str; 15] = [
+pub const CHANGING: [&str; 23] = [
+    "chunks_exact_mut",
+    "chunks_mut",
     "clone_from_slice",
     "copy_from_slice",
     "fill",
     "fill_with",
+    "first_mut",
+    "get_mut",
+    "last_mut",
     "reverse",
     "rotate_left",
     "rotate_right",
@@ -76,6 +81,9 @@ pub const CHANGING: [&str; 15] = [
     "sort_unstable",
     "sort_unstable_by",
     "sort_unstable_by_key",
+    "split_at_mut",
+    "split_first_mut",
+    "split_last_mut",
     "swap",
     "swap_with_slice",
 ];

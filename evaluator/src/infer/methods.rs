@@ -180,6 +180,10 @@ impl<'l> Checker<'l> {
                 let part = Ty::Array(item.clone()).into_shared_ref();
                 self.check_arguments(args, &[Ty::USIZE], Ty::Iter(Box::new(part)))
             }
+            Ty::Array(item) if matches!(name, "chunks_mut" | "chunks_exact_mut") => {
+                let part = Ty::Ref(true, Box::new(Ty::Array(item.clone())));
+                self.check_arguments(args, &[Ty::USIZE], Ty::Iter(Box::new(part)))
+            }
             Ty::Array(_) if name == "len" => self.check_arguments(args, &[], Ty::USIZE),
             Ty::Array(item) if name == "map" && args.len() == 1 => {
                 Ty::Array(Box::new(self.infer_map_result(item, &args[0])))

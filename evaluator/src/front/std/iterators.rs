@@ -438,6 +438,32 @@ impl Array {
         if items.len() > 0 { Some((&items[items.len() - 1], &items[..items.len() - 1])) } else { None }
     }
 
+    fn first_mut<T>(items: &mut [T]) -> Option<&mut T> {
+        if items.len() > 0 { Some(&mut items[0]) } else { None }
+    }
+
+    fn last_mut<T>(items: &mut [T]) -> Option<&mut T> {
+        let n = items.len();
+        if n > 0 { Some(&mut items[n - 1]) } else { None }
+    }
+
+    fn get_mut<T>(items: &mut [T], k: usize) -> Option<&mut T> {
+        if k < items.len() { Some(&mut items[k]) } else { None }
+    }
+
+    fn split_at_mut<T>(items: &mut [T], k: usize) -> (&mut [T], &mut [T]) {
+        (&mut items[..k], &mut items[k..])
+    }
+
+    fn split_first_mut<T>(items: &mut [T]) -> Option<(&mut T, &mut [T])> {
+        if items.len() > 0 { Some((&mut items[0], &mut items[1..])) } else { None }
+    }
+
+    fn split_last_mut<T>(items: &mut [T]) -> Option<(&mut T, &mut [T])> {
+        let n = items.len();
+        if n > 0 { Some((&mut items[n - 1], &mut items[..n - 1])) } else { None }
+    }
+
     fn as_slice<T>(items: &[T]) -> &[T] {
         &items[..]
     }
