@@ -3,9 +3,13 @@
 use super::Evaluator;
 use super::enums::EnumValue;
 use super::value::{Eval, Value};
+use super::generics::hidden_field;
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::mentioned_in;
+use crate::front::name::Name;
 use crate::front::tree::{Expr, ExprKind, Generic, IntType, Type as SourceType};
 use crate::ir::{Scalar, Type};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 impl Evaluator<'_> {
@@ -35,23 +39,7 @@ impl Evaluator<'_> {
             (Some(SourceType::Name(name, _)), value) => self.ascribe_name(value, name, span),
             (Some(SourceType::Array(element, Some(len))), Value::Elements(f)) => {
                 let len = self.eval_expr(len)?;
-                let Some(len @ 1..=65536) = self.known_int(&len) else {
-                    let error = Diagnostic::error_at(
-                        Code::RuntimeValue,
-                        span,
-                        "the length of this array is no compile-time constant above 0",
-                    )
-                    .label("made here")
-                    .help("use a constant, an option, or a loop counter");
-                    return Err(self.demand_of(&[&len], error));
-                };
-                let mut elements = Vec::new();
-                for k in 0..len {
-                    self.count_step(span)?;
-                    let value = self.call_value(&f, vec![Value::Int(k)], span)?;
-                    elements.push(self.ascribe_type(value, Some(element), span)?);
-                }
-                Ok(Value::array(elements))
+                self.listed_elements(&Value::Elements(f), &len, Some(element), span)
             }
             (Some(SourceType::Array(element, len)), Value::Array(elements)) => {
                 check_length(len.as_deref(), elements.len(), span)?;
@@ -79,6 +67,63 @@ impl Evaluator<'_> {
             }
             (_, value) => Ok(value),
         }
+    }
+
+    /// Evaluates the elements of `array::from_fn(f)`, of a type if one is stated.
+    pub fn listed_elements(&mut self, array: &Value, len: &Value, element: Option<&SourceType>, span: Span) -> Eval {
+        let Value::Elements(f) = array else {
+            return Ok(array.clone());
+        };
+        let Some(len @ 1..=65536) = self.known_int(len) else {
+            let error = Diagnostic::error_at(
+                Code::RuntimeValue,
+                span,
+                "the length of this array is no compile-time constant above 0",
+            )
+            .label("made here")
+            .help("use a constant, an option, or a loop counter");
+            return Err(self.demand_of(&[len], error));
+        };
+        let mut elements = Vec::new();
+        for k in 0..len {
+            self.count_step(span)?;
+            let value = self.call_value(f, vec![Value::Int(k)], span)?;
+            elements.push(self.ascribe_type(value, element, span)?);
+        }
+        Ok(Value::array(elements))
+    }
+
+    /// Ascribes the type of a field of a structure whose parameters have values as far as they are `known`. A function that makes
+    /// the structure may have parameters of the same names. An array whose length is not known yet waits for the structure's type.
+    pub fn ascribe_field(
+        &mut self,
+        value: Value,
+        ty: &SourceType,
+        generics: &[Generic],
+        known: &[(Name, Value)],
+        span: Span,
+    ) -> Eval {
+        if generics.is_empty() {
+            return self.ascribe_type(value, Some(ty), span);
+        }
+        let waits = has_waiting(&value);
+        let mark = self.scope.enter();
+        for generic in generics {
+            let found = hidden_field(known, generic.name());
+            let unknown = waits && found.is_none() && length_mentions(ty, generic.name());
+            if unknown {
+                self.scope.leave(mark);
+                return Ok(value);
+            }
+            let found = match (generic, found) {
+                (Generic::Const(_, ty), Some(constant)) => self.ascribe_type(constant, Some(ty), span)?,
+                (_, found) => found.unwrap_or(Value::Unset),
+            };
+            self.scope.bind(generic.name(), found);
+        }
+        let ascribed = self.ascribe_type(value, Some(ty), span);
+        self.scope.leave(mark);
+        ascribed
     }
 
     /// Ascribes types to the fields of an enum's value.
@@ -165,6 +210,27 @@ impl Evaluator<'_> {
             )
             .into()),
         }
+    }
+}
+
+/// Returns whether a value is an array whose length is not known yet, or a list of such.
+pub fn has_waiting(value: &Value) -> bool {
+    match value {
+        Value::Elements(_) => true,
+        Value::Array(parts) => parts.first().is_some_and(has_waiting),
+        _ => false,
+    }
+}
+
+/// Returns whether a parameter is a length of an array of a type.
+fn length_mentions(ty: &SourceType, parameter: &str) -> bool {
+    match ty {
+        SourceType::Array(element, len) => {
+            let mut names = BTreeSet::new();
+            len.iter().for_each(|len| mentioned_in(len, &mut names));
+            names.contains(parameter) || length_mentions(element, parameter)
+        }
+        _ => false,
     }
 }
 

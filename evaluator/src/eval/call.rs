@@ -87,6 +87,8 @@ impl<'a> Evaluator<'a> {
             let own = stated.get(k).filter(|expr| !is_inferred(expr));
             values.push(match (own, generic) {
                 (Some(expr), Some(Generic::Const(..))) => self.eval_expr(expr)?,
+                // The length of `array::from_fn::<f32, 4, _>`.
+                (Some(expr), None) if matches!(expr.kind, ExprKind::Int(..) | ExprKind::Block(_)) => self.eval_expr(expr)?,
                 (Some(expr), Some(Generic::Type(_)) | None) => self.type_argument(expr),
                 (None, Some(Generic::Const(..))) => {
                     let argument = of_owner();
@@ -175,7 +177,11 @@ impl<'a> Evaluator<'a> {
             && name == "from_fn"
             && f.is_called()
         {
-            return Ok(Value::Elements(Rc::new(f.clone())));
+            let made = Value::Elements(Rc::new(f.clone()));
+            return match constants.get(1) {
+                Some(len) if *len != Value::unit() => self.listed_elements(&made, len, None, span),
+                _ => Ok(made),
+            };
         }
         if let ([name], [items]) = (path, values.as_slice())
             && let Some(name @ ("sum" | "product")) = name.strip_suffix("_of_some")
@@ -275,7 +281,7 @@ impl<'a> Evaluator<'a> {
 
     /// Evaluates an expression with a stated type; for a call, the type determines constants of the function.
     pub fn expecting(&mut self, expr: &Expr, ty: Option<&SourceType>) -> Eval {
-        if matches!(expr.kind, ExprKind::Call(..)) {
+        if matches!(expr.kind, ExprKind::Call(..) | ExprKind::Method(..)) {
             self.expected = ty.cloned().map(Box::new);
         }
         self.eval_expr(expr)
@@ -411,7 +417,8 @@ impl<'a> Evaluator<'a> {
         }
         let mut fields = Vec::new();
         for ((field, ty, _), value) in definition.fields.iter().zip(values) {
-            fields.push((field.clone(), self.ascribe_type(value.clone(), Some(ty), span)?));
+            let value = self.ascribe_field(value.clone(), ty, &definition.generics, &[], span)?;
+            fields.push((field.clone(), value));
         }
         Ok(Some(self.structure_of(name, fields, span)))
     }

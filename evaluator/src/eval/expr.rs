@@ -183,6 +183,10 @@ impl Evaluator<'_> {
         let variant = library.find_variant(path);
         let own = variant.map(|(_, _, variant)| &variant.fields);
         let own = own.or_else(|| library.structs.get(name).map(|s| &s.fields));
+        let generics = match variant {
+            Some((ty, ..)) => library.enums[ty].generics.as_slice(),
+            None => library.structs.get(name).map_or(&[][..], |definition| &definition.generics),
+        };
         let of_glam = public_fields(name, span).filter(|_| own.is_none());
         let Some(stated) = own.or(of_glam.as_ref()) else {
             let known: Vec<&str> = self.library.structs.keys().map(String::as_str).collect();
@@ -209,7 +213,8 @@ impl Evaluator<'_> {
                 .into());
             };
             let given_value = self.eval_expr(value)?;
-            given.push((field.clone(), self.ascribe_type(given_value, Some(ty), value.span)?));
+            let given_value = self.ascribe_field(given_value, ty, generics, &[], value.span)?;
+            given.push((field.clone(), given_value));
         }
         // As in Rust, the base is read last, after the changes made by the fields' expressions.
         let rest = rest.map(|e| self.eval_value(e)).transpose()?;
@@ -291,6 +296,8 @@ impl Evaluator<'_> {
     /// Returns a field of a structure, a part of a tuple, or components of a vector.
     pub fn value_field(&mut self, base: &Value, name: &str, span: Span) -> Eval {
         match base {
+            Value::Range(range) if name == "start" && !range.inclusive => Ok((*range.start).clone()),
+            Value::Range(range) if name == "end" && !range.inclusive => Ok((*range.end).clone()),
             Value::Struct { ty, fields } => match fields.iter().find(|(field, _)| field == name) {
                 Some((_, value)) => Ok(value.clone()),
                 None => {
@@ -346,6 +353,10 @@ impl Evaluator<'_> {
     pub fn array_elements(&mut self, value: &Value, len: usize, span: Span) -> Eval<Vec<Value>> {
         if matches!(value, Value::Poison) {
             return Ok(vec![Value::Poison; len]);
+        }
+        if matches!(value, Value::Elements(_)) {
+            let listed = self.listed_elements(value, &Value::Int(len as i64), None, span)?;
+            return self.rows(&listed, span);
         }
         let found = self.array_len(value).unwrap_or(0);
         if found != len {

@@ -4,6 +4,7 @@
 //! length of an array in the structure. It stores a type parameter too if no field shows what it stands for.
 
 use super::Evaluator;
+use super::ascribe::has_waiting;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
@@ -181,8 +182,25 @@ impl Evaluator<'_> {
         if added.is_empty() {
             return Ok(value);
         }
-        let all = fields.iter().cloned().chain(added).collect();
+        let mut all: Vec<(Name, Value)> = fields.iter().cloned().chain(added).collect();
+        self.complete_fields(ty, &mut all, span)?;
         Ok(Value::structure(ty.clone(), all))
+    }
+
+    /// Gives the fields of a structure the arguments of its type.
+    fn complete_fields(&mut self, ty: &str, fields: &mut [(Name, Value)], span: Span) -> Eval<()> {
+        let library = self.library;
+        let Some(definition) = library.structs.get(ty) else {
+            return Ok(());
+        };
+        let known = fields.to_vec();
+        for ((_, stated, _), (_, field)) in definition.fields.iter().zip(fields) {
+            let has_arguments = matches!(stated.peel_refs(), SourceType::Name(_, args) if !args.is_empty());
+            if has_waiting(field) || has_arguments && matches!(field, Value::Struct { .. }) {
+                *field = self.ascribe_field(field.clone(), stated, &definition.generics, &known, span)?;
+            }
+        }
+        Ok(())
     }
 
     /// Returns a structure built from its fields, with the constants that they determine.
@@ -199,6 +217,13 @@ impl Evaluator<'_> {
             if let Some(constant) = found.and_then(|found| self.as_constant(&found)) {
                 fields.push((hidden(parameter), Value::Const(constant)));
             }
+        }
+        let mut completed = fields.clone();
+        // What is wrong with a field is refused where the type is stated.
+        if fields.len() > definition.map_or(0, |definition| definition.fields.len())
+            && self.complete_fields(name, &mut completed, span).is_ok()
+        {
+            fields = completed;
         }
         Value::structure(name, fields)
     }

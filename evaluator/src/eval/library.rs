@@ -11,9 +11,9 @@ impl Evaluator<'_> {
     /// Evaluates `mem::swap`, `mem::replace`, `mem::take`, `cmp::max` or `cmp::min`; `None` for any other function.
     pub fn eval_mem_call(&mut self, path: &[String], values: &[Value], span: Span) -> Eval<Option<Value>> {
         let name = path.last().map(String::as_str).unwrap_or_default();
-        if let ([.., of, _], [a, b]) = (path, values)
-            && of == "cmp"
+        if let [a, b] = values
             && matches!(name, "max" | "min")
+            && (path.len() == 1 || path[path.len() - 2] == "cmp")
         {
             let (a, b) = (self.deref_value(a.clone(), span)?, self.deref_value(b.clone(), span)?);
             if let Some(found) = self.order_method(&a, name, std::slice::from_ref(&b), span)? {

@@ -22,6 +22,7 @@ const INTEGERS: [&str; 7] = [
 
 impl<'a> Evaluator<'a> {
     pub fn eval_method(&mut self, receiver: &Expr, name: &str, constants: &[Expr], args: &[Expr], span: Span) -> Eval {
+        let expected = self.expected.take();
         let writing = matches!(name, "iter_mut" | "chunks_mut" | "chunks_exact_mut") || self.library.mutating.contains(name.rsplit("::").next().unwrap_or(name));
         let (value, place) = self.eval_receiver(receiver, writing)?;
         let args = self.eval_all(args)?;
@@ -50,6 +51,7 @@ impl<'a> Evaluator<'a> {
             };
             let all = std::iter::once(receiver).chain(args).collect();
             let constants = self.constants_for(Some(function), constants)?;
+            self.expected = expected;
             return self.inline_function(method, &constants, all, span);
         }
         // A mutable reference to an array iterates over references to its elements.

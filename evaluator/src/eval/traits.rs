@@ -274,11 +274,12 @@ impl<'a> Evaluator<'a> {
             (None, Some(ty)) => vec![ty.name.clone()],
             (None, None) => Vec::new(),
         };
-        let keys = types
-            .iter()
-            .map(|ty| library.trait_keys(ty, of, name))
-            .find(|keys| !keys.is_empty());
-        let mut keys = keys.unwrap_or_default();
+        // Numbers and vectors have `default` themselves.
+        let keys_of = |ty: &String| match library.trait_keys(ty, of, name) {
+            keys if keys.is_empty() && of == "Default" => library.method_keys(ty, name),
+            keys => keys,
+        };
+        let mut keys = types.iter().map(keys_of).find(|keys| !keys.is_empty()).unwrap_or_default();
         if let Some(ty) = behind.filter(|_| keys.len() > 1) {
             let known = Value::Type(ty);
             keys.retain(|key| {

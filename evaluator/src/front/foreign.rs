@@ -7,6 +7,10 @@ use super::tree::Library;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
+use ::std::collections::HashSet;
+
+/// Crates whose names the evaluator knows.
+const FOREIGN: [&str; 5] = ["std", "core", "alloc", "glam", "straightline_kernels"];
 
 /// A name that a `use` brings in.
 pub struct Import {
@@ -34,16 +38,27 @@ impl Import {
         (!known).then_some(here)
     }
 
-    /// The name and why the kernel may not use it, if what it stands for is not in the kernel's files.
-    pub fn missing_error(self, library: &Library) -> Option<(String, Diagnostic)> {
+    /// The name that the import brings in from Rust, glam or the prelude, which other modules may import from this one.
+    pub fn foreign_name(&self) -> Option<&str> {
+        let is_foreign = FOREIGN.contains(&self.root.as_str()) || self.prelude;
+        is_foreign.then_some(self.name.1.as_str())
+    }
+
+    /// The name and why the kernel may not use it, if what it stands for is neither in the kernel's files nor among the names
+    /// that they import from elsewhere.
+    pub fn missing_error(self, library: &Library, elsewhere: &HashSet<String>) -> Option<(String, Diagnostic)> {
         let (there, here) = self.name;
+        let of_parent = ["super", "self", "crate"].contains(&self.root.as_str());
+        if of_parent && (is_in_prelude(&there) || elsewhere.contains(&there)) {
+            return None;
+        }
         let given = library.functions.contains_key(&there)
             || library.consts.contains_key(&there)
             || library.has_type(&there)
             || library.traits.contains_key(&there)
             || library.enums.contains_key(&self.of)
             || library.functions.keys().any(|name| method_of(name, &there));
-        let known = ["std", "core", "alloc", "glam", "straightline_kernels"].contains(&self.root.as_str());
+        let known = FOREIGN.contains(&self.root.as_str());
         if given || known || self.prelude {
             return None;
         }
@@ -56,6 +71,15 @@ impl Import {
         .help("give the file that defines it too, or define it here");
         Some((here, error))
     }
+}
+
+/// Returns whether the prelude has a type or a function of a name.
+fn is_in_prelude(name: &str) -> bool {
+    let of_numbers = ["mix", "options", "smoothstep", "step", "tally", "lane_position", "quad_select", "quad_vector"];
+    let constructs = ["vec", "ivec", "uvec", "bvec", "mat"]
+        .iter()
+        .any(|prefix| matches!(name.strip_prefix(prefix), Some("2" | "3" | "4")));
+    is_prelude_type(name) || constructs || super::UNARY.contains(&name) || of_numbers.contains(&name) || name == "Quat"
 }
 
 /// Returns whether `name` is a method of the type `of`.
@@ -224,7 +248,7 @@ impl Items {
             syn::UseTree::Group(g) => g.items.iter().for_each(|tree| self.collect_imports(check, tree, path)),
             syn::UseTree::Glob(_) => {
                 let known = path.first().is_some_and(|root| root == "straightline_kernels")
-                    || path.last().is_some_and(|last| last == "consts");
+                    || path.last().is_some_and(|last| last == "consts" || last == "Ordering");
                 self.note_unknown_names(!known);
             }
             syn::UseTree::Name(n) => self.import_name(check, path, (&n.ident, &n.ident)),

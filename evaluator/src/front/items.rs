@@ -568,9 +568,11 @@ impl Items {
             }
         }
         let mut doubtful_names = FxHashSet::default();
+        let foreign = self.imports.iter().filter_map(Import::foreign_name);
+        let elsewhere = foreign.map(str::to_owned).collect();
         for import in std::mem::take(&mut self.imports) {
             doubtful_names.extend(import.unknown_name(&self.library).map(str::to_owned));
-            if let Some((name, error)) = import.missing_error(&self.library) {
+            if let Some((name, error)) = import.missing_error(&self.library, &elsewhere) {
                 self.note_errors_of(&name, vec![error]);
             }
         }

@@ -52,7 +52,8 @@ impl Names {
     /// The names that files give, and what is wrong with each.
     pub fn from_files(files: &[(u32, syn::File)]) -> (Names, Wrong) {
         let (mut names, mut errors) = (Names::default(), Wrong::new());
-        let mut enums = HashMap::new();
+        let orders = ["Less", "Equal", "Greater"].map(str::to_owned);
+        let mut enums = HashMap::from([("Ordering".to_owned(), orders.to_vec())]);
         for (_, file) in files {
             collect_enums(&file.items, &mut enums);
         }

@@ -382,7 +382,7 @@ impl<'l> Checker<'l> {
                 let item = self.infer_map_result(&Ty::USIZE, f);
                 Ty::Array(Box::new(item))
             }
-            (["cmp", "max" | "min"], [a, b]) => self.infer_larger(a, b, span),
+            (["cmp", "max" | "min"] | ["max" | "min"], [a, b]) => self.infer_larger(a, b, span),
             (["mem", "swap"] | ["swap"], [a, b]) => {
                 let of = Ty::Ref(true, Box::new(self.table.fresh(Kind::Any)));
                 self.takes_both(a, b, &of, &of);

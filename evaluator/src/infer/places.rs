@@ -237,7 +237,7 @@ impl<'l> Checker<'l> {
             },
             Ty::Vector(kind, _) => Ty::scalar(*kind),
             Ty::Matrix(n) if name.ends_with("_axis") => Ty::Vector(Scalar::F32, *n),
-            // The evaluator refuses the ends of a range, which Rust has.
+            // The evaluator refuses those of a closed range, which Rust has as methods.
             Ty::Range(end) if matches!(name, "start" | "end") => (**end).clone(),
             _ => Ty::Unknown,
         }

@@ -114,6 +114,7 @@ impl<'l> Checker<'l> {
             "Mat3" => Ty::Matrix(3),
             "Mat4" => Ty::Matrix(4),
             "Quad" => Ty::Quad(Box::new(texel())),
+            "Range" | "RangeInclusive" => Ty::Range(Box::new(texel())),
             "Buffer" => Ty::Buffer(Box::new(texel())),
             "Shared" | "AtomicShared" => {
                 let element = match texel() {

@@ -447,6 +447,11 @@ impl<'l> Checker<'l> {
                 self.methods.insert(span, key.to_owned());
                 continue;
             }
+            if let (None, Ty::Param(parameter)) = (&from, self.table.resolve_shallow(&wanted)) {
+                self.methods
+                    .insert(span, qualify_name(&parameter, "Default", "default"));
+                continue;
+            }
             let Some(of) = self.type_name(&wanted) else {
                 if !matches!(self.table.resolve_shallow(&wanted), Ty::Unknown | Ty::Param(_)) {
                     self.errors.push(
