@@ -72,6 +72,7 @@ fn features() -> Vec<(String, String)> {
         "slices",
         "items",
         "overloads",
+        "instances",
         "orders",
         "names",
         "ports",

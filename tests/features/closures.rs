@@ -155,3 +155,67 @@ pub fn filtered_loop(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     }
     sum
 }
+
+//// Constructors, variants and operators as values: `.map(Wrap)`, `.map(Shape::Disc)`, `.fold(0.0, f32::add)`
+use std::ops::{Add, Mul};
+#[derive(Clone, Copy)]
+struct Wrap(f32);
+#[derive(Clone, Copy)]
+struct Pair(f32, f32);
+#[derive(Clone, Copy)]
+enum Shape {
+    Disc(f32),
+    Slab(f32, f32),
+    Empty,
+}
+
+impl Wrap {
+    fn doubled(self) -> f32 {
+        self.0 * 2.0
+    }
+
+    fn all(v: [f32; 2]) -> [Wrap; 2] {
+        v.map(Self)
+    }
+}
+
+impl Shape {
+    fn area(&self) -> f32 {
+        match self {
+            Shape::Disc(r) => r * r,
+            Shape::Slab(a, b) => a * b,
+            Shape::Empty => 0.0,
+        }
+    }
+}
+
+impl Add for Wrap {
+    type Output = Wrap;
+    fn add(self, other: Wrap) -> Wrap {
+        Wrap(self.0 + other.0 * 0.5)
+    }
+}
+
+fn square<T: Mul<Output = T> + Copy>(x: T) -> T {
+    x * x
+}
+
+const CURVES: [fn(f32) -> f32; 2] = [f32::abs, square];
+pub fn constructors_as_values(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel);
+    let parts = here.to_array();
+    let wrapped: f32 = parts.into_iter().map(Wrap).map(Wrap::doubled).sum();
+    let (make, pair) = (Wrap, Pair);
+    let shapes = [here.y, here.z].map(Shape::Disc);
+    let slab = Shape::Slab;
+    let areas =
+        shapes.iter().map(Shape::area).sum::<f32>() + slab(here.x, 2.0).area() + make(here.w).0 + pair(1.0, here.x).1;
+    let rows: Vec3 = [(1.0, 0.0, 0.5), (0.0, here.y, 0.25)].into_iter().map(Vec3::from).sum();
+    let splats = [0.25, here.x].map(Vec4::splat)[1] + [[here.x, 2.0]].map(Vec2::from_array)[0].y;
+    let bytes: f32 = [1u8, 2, 3].iter().copied().map(f32::from).sum();
+    let sums = parts.into_iter().fold(0.0, f32::add) + parts.into_iter().reduce(Mul::mul).unwrap_or(1.0);
+    let wraps = parts.map(Wrap).into_iter().reduce(Add::add).map_or(0.0, Wrap::doubled) + Wrap::all([here.x, 1.0])[1].0;
+    let most = parts.into_iter().reduce(f32::max).unwrap_or_default() + CURVES[(pixel.x & 1) as usize](here.y - 0.5);
+    let some = [here.z].map(Some)[0].map_or(Vec2::ZERO, Vec2::splat).x + [ivec2(pixel.x, 2)].map(IVec2::as_vec2)[0].y;
+    vec4(wrapped + areas, rows.y + bytes, sums + wraps, most + some) + splats
+}

@@ -182,3 +182,92 @@ pub fn associated(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let level = Level(here.x) + here.y.into();
     (mapped::<First>(here) - mapped::<Second>(here)).extend(level.0)
 }
+
+//// Imports from modules and enums: `use super::{Vec3, helper}`, `use self::..`, `use Enum::*`, `use std::cmp::Ordering::*`
+use self::tone::graded as toned;
+use std::cmp::Ordering::*;
+use std::cmp::{max, min as least};
+use std::f32::consts::{self, FRAC_1_PI as PART};
+use tone::{SHARE, inner};
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Dark,
+    Mid(f32),
+    Bright { x: f32 },
+}
+
+fn helper(x: f32) -> f32 {
+    x * 0.5
+}
+
+mod light {
+    use super::{Vec3, helper, vec3};
+    pub fn lit(x: f32) -> Vec3 {
+        vec3(x, helper(x), 1.0)
+    }
+
+    #[derive(Clone, Copy, PartialEq)]
+    pub enum Side {
+        Left,
+        Right,
+    }
+    impl Side {
+        pub const ALL: [Side; 2] = [Side::Left, Side::Right];
+    }
+}
+
+mod tone {
+    use self::inner::deep;
+    use super::*;
+    pub mod inner {
+        use super::super::*;
+        pub fn deep(x: f32) -> f32 {
+            helper(x) + 0.125
+        }
+    }
+
+    pub fn graded(v: Vec3) -> Vec3 {
+        v * deep(v.x)
+    }
+
+    pub const SHARE: f32 = 0.25;
+}
+
+pub fn imports(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    use self::light::lit;
+    use Kind::*;
+    use light::Side::{self, Left, Right as Opposite};
+    let here = color.load(pixel);
+    let order = match here.x.partial_cmp(&0.5) {
+        Some(Less) => 0.25,
+        Some(Equal) => 0.5,
+        Some(Greater) => 1.0,
+        None => 0.0,
+    };
+    let kind = if here.y > 0.5 {
+        Bright { x: here.y }
+    } else if here.y > 0.25 {
+        Mid(here.z)
+    } else {
+        Dark
+    };
+    let value = match kind {
+        Dark => 0.0,
+        Mid(x) => x,
+        Bright { x } => x * 2.0,
+    };
+    let side = if pixel.x > 3 { Left } else { Opposite };
+    let sides = match side {
+        Left => 1.0,
+        Opposite => 2.0,
+    } + (side == Side::ALL[1]) as i32 as f32;
+    let sizes = max(pixel.x, 3)
+        + least(pixel.y, 2)
+        + match pixel.x.cmp(&pixel.y) {
+            Less => 1,
+            Equal | Greater => 2,
+        };
+    let colour = lit(here.x) + toned(here.xyz()) * SHARE;
+    colour.extend(inner::deep(here.w)) + vec4(order, value, sides, sizes as f32) + PART * consts::FRAC_1_SQRT_2
+}

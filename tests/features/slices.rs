@@ -152,3 +152,98 @@ pub fn parts_of_slices(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let (low, high) = tail.split_at(tail.len() / 2);
     vec4(head[0] + tail[(pixel.x & 1) as usize], weighed(&here), outer, low[0] * high[1] + known as u32 as f32)
 }
+
+//// Mutable parts of arrays: `chunks_mut`, `split_at_mut`, `split_first_mut`, `get_mut`
+fn halves(list: &mut [f32]) -> (&mut [f32], &mut [f32]) {
+    let middle = list.len() / 2;
+    list.split_at_mut(middle)
+}
+
+fn place(list: &mut [f32; 6], k: usize) -> Option<&mut f32> {
+    if k < 6 { Some(&mut list[k]) } else { None }
+}
+
+pub fn mutable_parts(color: &Frame<Vec4>, taps: i32, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel);
+    let mut all = [here.x, here.y, here.z, here.w, 0.5, 0.25];
+    for k in 0..taps.clamp(0, 6) as usize {
+        all[k] += 0.125 * k as f32;
+    }
+    for pair in all.chunks_exact_mut(2) {
+        pair.swap(0, 1);
+        pair[(pixel.x & 1) as usize] += 1.0;
+    }
+    for (k, part) in all.chunks_mut(4).enumerate() {
+        part[0] += k as f32;
+        for x in part.iter_mut() {
+            *x *= 2.0;
+        }
+    }
+    let (left, right) = halves(&mut all);
+    for (x, y) in left.iter_mut().zip(right.iter()) {
+        *x += *y;
+    }
+    for (x, y) in left.iter_mut().rev().zip(right) {
+        std::mem::swap(x, y);
+    }
+    left[(pixel.y % 3) as usize] += 0.5;
+    if let Some((first, rest)) = all.split_first_mut() {
+        *first = 2.0;
+        rest[0] += *first;
+    }
+    if let Some((last, rest)) = all.split_last_mut() {
+        *last *= 2.0;
+        rest[1] = *last;
+    }
+    if let Some(x) = all.first_mut() {
+        *x += here.x;
+    }
+    *all.last_mut().unwrap() -= 0.25;
+    if let Some(x) = all.get_mut((pixel.x & 7) as usize) {
+        *x += 8.0;
+    }
+    if let Some(x) = place(&mut all, 2) {
+        *x *= 0.5;
+    }
+    vec4(all[0] + all[1], all[2], all[3] + all[4], all[5])
+}
+
+//// Mutable iterators: `rev`, `enumerate`, `zip`, `skip`, `step_by`, `take`, `for_each`, `filter`
+pub fn mutable_iterators(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel);
+    let mut all = [here.x, here.y, here.z, here.w, 0.5];
+    for (k, x) in all.iter_mut().rev().enumerate() {
+        *x += k as f32;
+    }
+    for x in all.iter_mut().skip(1).step_by(2) {
+        *x *= 0.5;
+    }
+    for (x, by) in all.iter_mut().zip([1.0, 2.0, 3.0]) {
+        *x *= by;
+    }
+    for x in all.iter_mut().take(2) {
+        *x -= 0.25;
+    }
+    for (k, x) in all.iter_mut().enumerate().skip(2) {
+        *x += k as f32 * 0.5;
+    }
+    all.iter_mut().enumerate().for_each(|(k, x)| *x += k as f32);
+    for x in all.iter_mut().filter(|x| **x > 3.0) {
+        *x *= 0.5;
+    }
+    let mut grid = [[0.0; 3]; 2];
+    for (y, row) in grid.iter_mut().enumerate() {
+        for (x, cell) in row.iter_mut().enumerate() {
+            *cell = (x + y * 3) as f32 * here.x;
+        }
+    }
+    all.rotate_left(2);
+    all[1..].rotate_right(1);
+    all[..3].swap_with_slice(&mut grid[1]);
+    let mut held = here.y;
+    let kept = Some(&mut held);
+    if let Some(x) = kept {
+        *x += 1.0;
+    }
+    vec4(all[0] + all[1], all[2] + grid[1][2], all[3] + all[4], held)
+}

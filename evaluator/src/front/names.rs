@@ -26,6 +26,8 @@ pub struct Names {
     types: HashMap<String, (u32, syn::Type)>,
     /// Functions by other names, with the files that say so: the name here, and the name there.
     functions: Vec<(u32, syn::Ident, syn::Ident)>,
+    /// Defaults of the parameters of types.
+    defaults: HashMap<String, Vec<Option<syn::GenericArgument>>>,
 }
 
 impl Default for Names {
@@ -34,6 +36,7 @@ impl Default for Names {
             paths: HashMap::new(),
             types: HashMap::new(),
             functions: Vec::new(),
+            defaults: HashMap::new(),
         };
         for (ty, variant) in [
             ("Option", "Some"),
@@ -92,6 +95,8 @@ impl Names {
                     }
                     self.types.insert(name, alias);
                 }
+                syn::Item::Struct(s) => self.add_defaults(&s.ident, &s.generics),
+                syn::Item::Enum(e) => self.add_defaults(&e.ident, &e.generics),
                 syn::Item::Mod(m) => {
                     if let Some((_, items)) = &m.content {
                         self.add_items(file, items, enums, errors);
@@ -105,6 +110,24 @@ impl Names {
                 _ => {}
             }
         }
+    }
+
+    fn add_defaults(&mut self, name: &syn::Ident, generics: &syn::Generics) {
+        let defaults = generics.params.iter().filter_map(|param| match param {
+            syn::GenericParam::Lifetime(_) => None,
+            syn::GenericParam::Type(t) => Some(t.default.clone().map(|(_, ty)| syn::GenericArgument::Type(ty))),
+            syn::GenericParam::Const(c) => Some(c.default.clone().map(|(_, value)| syn::GenericArgument::Const(value))),
+        });
+        let defaults: Vec<_> = defaults.collect();
+        if defaults.iter().any(Option::is_some) {
+            self.defaults.insert(name.to_string(), defaults);
+        }
+    }
+
+    /// Defaults of the parameters of a type that follow so many arguments.
+    pub fn defaults_after(&self, name: &str, count: usize) -> impl Iterator<Item = &syn::GenericArgument> {
+        let all = self.defaults.get(name).map_or(&[][..], Vec::as_slice);
+        all.iter().skip(count).map_while(Option::as_ref)
     }
 
     fn add_import(

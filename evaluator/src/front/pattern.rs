@@ -152,20 +152,13 @@ impl Lower {
                 let last = t.path.segments.last().expect("a path has a segment");
                 let mut args = Vec::new();
                 if let syn::PathArguments::AngleBracketed(list) = &last.arguments {
-                    for arg in &list.args {
-                        match arg {
-                            syn::GenericArgument::Type(syn::Type::Infer(_)) => {
-                                args.push(Type::Name("_".to_owned(), Vec::new()));
-                            }
-                            syn::GenericArgument::Type(t) => args.push(self.lower_type(t)),
-                            syn::GenericArgument::Const(value) => {
-                                args.push(Type::Const(Box::new(self.lower_expr(value))));
-                            }
-                            _ => {}
-                        }
-                    }
+                    args.extend(list.args.iter().filter_map(|arg| self.lower_argument(arg)));
                 }
                 let name = last.ident.to_string();
+                let names = self.names();
+                for default in names.defaults_after(&name, args.len()) {
+                    args.extend(self.lower_argument(default));
+                }
                 match self.self_type() {
                     Some(own) if name == "Self" => own.clone(),
                     _ => match self.aliased_type(&name) {
@@ -220,6 +213,16 @@ impl Lower {
                 element
             }
             _ => self.lower_type(ty),
+        }
+    }
+
+    /// An argument of a type; `None` of a lifetime.
+    fn lower_argument(&mut self, argument: &syn::GenericArgument) -> Option<Type> {
+        match argument {
+            syn::GenericArgument::Type(syn::Type::Infer(_)) => Some(Type::Name("_".to_owned(), Vec::new())),
+            syn::GenericArgument::Type(ty) => Some(self.lower_type(ty)),
+            syn::GenericArgument::Const(value) => Some(Type::Const(Box::new(self.lower_expr(value)))),
+            _ => None,
         }
     }
 

@@ -149,18 +149,6 @@ impl Check {
             if !self.keeps(attrs) {
                 continue;
             }
-            match &param {
-                syn::GenericParam::Lifetime(_) | syn::GenericParam::Type(_) => {}
-                syn::GenericParam::Const(p) => {
-                    if let Some((_, value)) = &p.default {
-                        self.refuse(
-                            value.span(),
-                            "a default of a constant parameter",
-                            "state the constant where it is used",
-                        );
-                    }
-                }
-            }
             params.push(param);
         }
         generics.params = params;
