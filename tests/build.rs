@@ -73,6 +73,7 @@ fn features() -> Vec<(String, String)> {
         "items",
         "overloads",
         "instances",
+        "constants",
         "orders",
         "names",
         "ports",

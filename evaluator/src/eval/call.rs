@@ -281,6 +281,13 @@ impl<'a> Evaluator<'a> {
 
     /// Evaluates an expression with a stated type; for a call, the type determines constants of the function.
     pub fn expecting(&mut self, expr: &Expr, ty: Option<&SourceType>) -> Eval {
+        if let (ExprKind::Tuple(parts), Some(SourceType::Tuple(types))) = (&expr.kind, ty)
+            && parts.len() == types.len()
+        {
+            let pairs = parts.iter().zip(types);
+            let values = pairs.map(|(part, ty)| self.expecting(part, Some(ty)));
+            return Ok(Value::Tuple(values.collect::<Eval<_>>()?));
+        }
         if matches!(expr.kind, ExprKind::Call(..) | ExprKind::Method(..)) {
             self.expected = ty.cloned().map(Box::new);
         }

@@ -204,7 +204,7 @@ impl Evaluator<'_> {
             self.scope.bind(parameter, value);
         }
         self.report.enter_call(name);
-        let value = self.eval_expr(&constant.value);
+        let value = self.expecting(&constant.value, Some(&constant.ty));
         self.report.leave_call();
         self.scope.leave_function(outer);
         let value = self.ascribe_type(value?, Some(&constant.ty), constant.value.span)?;

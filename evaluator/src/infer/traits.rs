@@ -479,6 +479,13 @@ impl<'l> Checker<'l> {
                         .or_else(|| builtin.then(|| format!("{of}::from")))
                 }
             };
+            if let (None, Some(function)) = (&from, key.as_ref().and_then(|key| library.functions.get_key_value(key))) {
+                let (key, function) = function;
+                let given = self.instantiate_function(function, &[]);
+                let made = self.quietly(|c| c.substitute_type(&function.result, &given, span));
+                self.table.unify(&made, &wanted);
+                self.note_instance(key, function, &given, span);
+            }
             match key {
                 Some(key) => drop(self.methods.insert(span, key)),
                 None => {
