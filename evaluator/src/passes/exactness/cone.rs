@@ -4,6 +4,7 @@ use super::terms::{Choice, Definition, Dependence, Place, Rounding, Term, Weight
 use crate::ir::{BinaryOp, Graph, NodeId, Op};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
+use std::ops::Range;
 
 /// Maximum number of terms examined for one sum, nearest first.
 const MAX_TERMS: usize = 256;
@@ -191,8 +192,10 @@ impl Share {
 struct Cone {
     terms: Vec<Term>,
     index: FxHashMap<Term, usize>,
-    /// By term, the edges to its parts.
-    edges: Vec<Vec<Edge>>,
+    /// Edges to the parts of terms, those of one term after the other.
+    edges: Vec<Edge>,
+    /// By term, the range of its edges.
+    spans: Vec<Range<usize>>,
     /// `true` if the limit was reached and terms are missing.
     is_cut: bool,
 }
@@ -205,8 +208,24 @@ impl Cone {
         let k = self.terms.len();
         self.index.insert(term.clone(), k);
         self.terms.push(term);
-        self.edges.push(Vec::new());
+        self.spans.push(0..0);
         (k, true)
+    }
+
+    /// Edges from a term to its parts.
+    fn edges_of(&self, term: usize) -> &[Edge] {
+        &self.edges[self.spans[term].clone()]
+    }
+
+    /// Terms by those that use them, of the terms that `passes` lets through.
+    fn users(&self, passes: &[bool]) -> Vec<Vec<usize>> {
+        let mut users = vec![Vec::new(); self.terms.len()];
+        for k in (0..self.terms.len()).filter(|k| passes[*k]) {
+            for (to, ..) in self.edges_of(k) {
+                users[*to].push(k);
+            }
+        }
+        users
     }
 
     /// Orders terms before their parts.
@@ -219,7 +238,7 @@ impl Cone {
                 continue;
             }
             while let Some((at, next)) = stack.pop() {
-                match self.edges[at].get(next) {
+                match self.edges_of(at).get(next) {
                     None => order.push(at),
                     Some((to, ..)) => {
                         stack.push((at, next + 1));
@@ -335,13 +354,15 @@ impl Search<'_> {
                     }
                 }
             };
+            let first = cone.edges.len();
             for part in parts {
                 let (to, is_new) = cone.add(part.term);
-                cone.edges[k].push((to, part.times, part.by));
+                cone.edges.push((to, part.times, part.by));
                 if is_new {
                     queue.push_back(to);
                 }
             }
+            cone.spans[k] = first..cone.edges.len();
         }
         (cone, roots, pending)
     }
@@ -349,7 +370,7 @@ impl Search<'_> {
     /// Finds the terms that cancel, and marks the operations that they pass through.
     fn find_cancelled(&mut self, cone: &Cone, roots: &[Vec<Edge>]) {
         let mut shares = vec![Share::default(); cone.terms.len()];
-        let mut users: Vec<Vec<usize>> = vec![Vec::new(); cone.terms.len()];
+        let mut passes = vec![false; cone.terms.len()];
         for (side, parts) in roots.iter().enumerate() {
             let mut whole = Share::default();
             whole.times[side] = 1.0;
@@ -369,16 +390,20 @@ impl Search<'_> {
                 }
                 continue;
             }
-            is_error &= !cone.edges[k].is_empty();
-            for (to, times, by) in &cone.edges[k] {
+            is_error &= !cone.edges_of(k).is_empty();
+            passes[k] = true;
+            for (to, times, by) in cone.edges_of(k) {
                 shares[*to].add(share, *times, *by);
-                users[*to].push(k);
             }
         }
         // The initial value that a loop carries is often 0.
         let before = |(choice, side): &(Choice, usize)| *side == 1 && !matches!(choice, Choice::Condition(_));
         is_error &= !cancelled.is_empty() && !self.choices.iter().any(before);
         self.is_error |= is_error;
+        if cancelled.is_empty() {
+            return;
+        }
+        let users = cone.users(&passes);
         let mut seen = FxHashSet::default();
         for (k, _) in cancelled.into_iter().filter(|(_, matters)| *matters || is_error) {
             self.outcome = Outcome::Cancels;
