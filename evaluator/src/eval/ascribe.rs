@@ -2,8 +2,8 @@
 
 use super::Evaluator;
 use super::enums::EnumValue;
-use super::value::{Eval, Value};
 use super::generics::hidden_field;
+use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::mentioned_in;
 use crate::front::name::Name;

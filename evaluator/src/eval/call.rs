@@ -88,7 +88,9 @@ impl<'a> Evaluator<'a> {
             values.push(match (own, generic) {
                 (Some(expr), Some(Generic::Const(..))) => self.eval_expr(expr)?,
                 // The length of `array::from_fn::<f32, 4, _>`.
-                (Some(expr), None) if matches!(expr.kind, ExprKind::Int(..) | ExprKind::Block(_)) => self.eval_expr(expr)?,
+                (Some(expr), None) if matches!(expr.kind, ExprKind::Int(..) | ExprKind::Block(_)) => {
+                    self.eval_expr(expr)?
+                }
                 (Some(expr), Some(Generic::Type(_)) | None) => self.type_argument(expr),
                 (None, Some(Generic::Const(..))) => {
                     let argument = of_owner();

@@ -250,7 +250,11 @@ fn some(definition: &Enum, value: Value) -> Value {
 }
 
 fn no_limit(span: Span) -> Diagnostic {
-    Diagnostic::error_at(Code::RuntimeValue, span, "a sequence of which no compile-time constant tells the end")
-        .label("of which length?")
-        .help("limit it before: `.take(16)`")
+    Diagnostic::error_at(
+        Code::RuntimeValue,
+        span,
+        "a sequence of which no compile-time constant tells the end",
+    )
+    .label("of which length?")
+    .help("limit it before: `.take(16)`")
 }

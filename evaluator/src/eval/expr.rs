@@ -185,7 +185,10 @@ impl Evaluator<'_> {
         let own = own.or_else(|| library.structs.get(name).map(|s| &s.fields));
         let generics = match variant {
             Some((ty, ..)) => library.enums[ty].generics.as_slice(),
-            None => library.structs.get(name).map_or(&[][..], |definition| &definition.generics),
+            None => library
+                .structs
+                .get(name)
+                .map_or(&[][..], |definition| &definition.generics),
         };
         let of_glam = public_fields(name, span).filter(|_| own.is_none());
         let Some(stated) = own.or(of_glam.as_ref()) else {

@@ -23,7 +23,8 @@ const INTEGERS: [&str; 7] = [
 impl<'a> Evaluator<'a> {
     pub fn eval_method(&mut self, receiver: &Expr, name: &str, constants: &[Expr], args: &[Expr], span: Span) -> Eval {
         let expected = self.expected.take();
-        let writing = matches!(name, "iter_mut" | "chunks_mut" | "chunks_exact_mut") || self.library.mutating.contains(name.rsplit("::").next().unwrap_or(name));
+        let writing = matches!(name, "iter_mut" | "chunks_mut" | "chunks_exact_mut")
+            || self.library.mutating.contains(name.rsplit("::").next().unwrap_or(name));
         let (value, place) = self.eval_receiver(receiver, writing)?;
         let args = self.eval_all(args)?;
         if args.contains(&Value::Poison) {

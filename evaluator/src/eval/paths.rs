@@ -155,7 +155,11 @@ impl Evaluator<'_> {
         {
             return Ok(value);
         }
-        let error = Diagnostic::error_at(Code::TypeNeeded, span, format!("the type of the constant `{key}` is not known"));
+        let error = Diagnostic::error_at(
+            Code::TypeNeeded,
+            span,
+            format!("the type of the constant `{key}` is not known"),
+        );
         Err(error
             .label("of which type?")
             .help("state the type in the call that leads here: `function::<Type>(...)`")

@@ -279,7 +279,11 @@ impl<'a> Evaluator<'a> {
             keys if keys.is_empty() && of == "Default" => library.method_keys(ty, name),
             keys => keys,
         };
-        let mut keys = types.iter().map(keys_of).find(|keys| !keys.is_empty()).unwrap_or_default();
+        let mut keys = types
+            .iter()
+            .map(keys_of)
+            .find(|keys| !keys.is_empty())
+            .unwrap_or_default();
         if let Some(ty) = behind.filter(|_| keys.len() > 1) {
             let known = Value::Type(ty);
             keys.retain(|key| {
@@ -309,7 +313,10 @@ impl<'a> Evaluator<'a> {
                 _ => None,
             };
             for (param, value) in function.params.iter().zip(args) {
-                if ty.as_ref().is_some_and(|ty| ty.is_complete() && self.has_all_arguments(ty)) {
+                if ty
+                    .as_ref()
+                    .is_some_and(|ty| ty.is_complete() && self.has_all_arguments(ty))
+                {
                     break;
                 }
                 let value = self.deref_value(value.clone(), span)?;

@@ -84,13 +84,17 @@ impl<'a> Evaluator<'a> {
         if self.is_unknown_name(name) {
             return None;
         }
-        let args = self.generics_of(name).iter().zip(args).map(|(generic, arg)| match generic {
-            Generic::Const(..) => {
-                let constant = self.constant_argument(arg)?;
-                self.as_constant(&constant).map(Value::Const)
-            }
-            Generic::Type(_) => self.resolve_type(arg).map(Value::Type),
-        });
+        let args = self
+            .generics_of(name)
+            .iter()
+            .zip(args)
+            .map(|(generic, arg)| match generic {
+                Generic::Const(..) => {
+                    let constant = self.constant_argument(arg)?;
+                    self.as_constant(&constant).map(Value::Const)
+                }
+                Generic::Type(_) => self.resolve_type(arg).map(Value::Type),
+            });
         let args = args.collect();
         let name = name.clone();
         Some(Rc::new(KnownType { name, args }))

@@ -112,6 +112,7 @@ impl Lower {
             generics: Vec::new(),
             of: None,
             bounds: HashMap::new(),
+            default_of: None,
             name: item.ident.to_string(),
             value: self.lower_expr(&item.expr),
             ty: self.lower_type(&item.ty),

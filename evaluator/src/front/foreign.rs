@@ -5,9 +5,9 @@ use super::items::Items;
 use super::textures::TextureType;
 use super::tree::Library;
 use crate::diagnostic::{Code, Diagnostic, Span};
+use ::std::collections::HashSet;
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
-use ::std::collections::HashSet;
 
 /// Crates whose names the evaluator knows.
 const FOREIGN: [&str; 5] = ["std", "core", "alloc", "glam", "straightline_kernels"];
@@ -75,7 +75,16 @@ impl Import {
 
 /// Returns whether the prelude has a type or a function of a name.
 fn is_in_prelude(name: &str) -> bool {
-    let of_numbers = ["mix", "options", "smoothstep", "step", "tally", "lane_position", "quad_select", "quad_vector"];
+    let of_numbers = [
+        "mix",
+        "options",
+        "smoothstep",
+        "step",
+        "tally",
+        "lane_position",
+        "quad_select",
+        "quad_vector",
+    ];
     let constructs = ["vec", "ivec", "uvec", "bvec", "mat"]
         .iter()
         .any(|prefix| matches!(name.strip_prefix(prefix), Some("2" | "3" | "4")));

@@ -497,7 +497,7 @@ impl Items {
                     check.check_constant(&mut c.generics, &mut c.ty, &mut c.expr);
                     let plain = qualified_name(Some(&of.name), &c.ident);
                     let name = self.inherent_key(plain, Some(&of), c.ident.span(), file);
-                    self.insert_constant(&name, file, c, &of);
+                    self.insert_constant(&name, (file, c), &of, None);
                     name
                 }
                 syn::ImplItem::Type(t) => {
@@ -519,14 +519,21 @@ impl Items {
         }
     }
 
-    /// Adds a constant of an `impl`.
-    pub(super) fn insert_constant(&mut self, key: &str, file: u32, item: &syn::ImplItemConst, of: &Owner) {
+    /// Adds a constant of an `impl`, which may be the default of a trait.
+    pub(super) fn insert_constant(
+        &mut self,
+        key: &str,
+        (file, item): (u32, &syn::ImplItemConst),
+        of: &Owner,
+        default_of: Option<&str>,
+    ) {
         let mut lower = self.lower_within(file, of);
         let constant = super::tree::Const {
             name: key.to_owned(),
             generics: of.generics.clone(),
             of: Some(of.ty.clone()),
             bounds: of.bounds.clone(),
+            default_of: default_of.map(str::to_owned),
             value: lower.lower_expr(&item.expr),
             ty: lower.lower_type(&item.ty),
         };

@@ -101,8 +101,20 @@ fn has_constant(ty: &str, name: &str) -> bool {
     let Some((kind, lanes)) = crate::front::tree::vector_named(ty) else {
         return match ty {
             "f32" => [
-                "DIGITS", "EPSILON", "INFINITY", "MANTISSA_DIGITS", "MAX", "MAX_10_EXP", "MAX_EXP", "MIN", "MIN_10_EXP",
-                "MIN_EXP", "MIN_POSITIVE", "NAN", "NEG_INFINITY", "RADIX",
+                "DIGITS",
+                "EPSILON",
+                "INFINITY",
+                "MANTISSA_DIGITS",
+                "MAX",
+                "MAX_10_EXP",
+                "MAX_EXP",
+                "MIN",
+                "MIN_10_EXP",
+                "MIN_EXP",
+                "MIN_POSITIVE",
+                "NAN",
+                "NEG_INFINITY",
+                "RADIX",
             ]
             .contains(&name),
             "i32" | "u32" | "usize" | "i8" | "i16" | "u8" | "u16" => ["BITS", "MAX", "MIN"].contains(&name),

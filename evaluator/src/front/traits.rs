@@ -248,7 +248,8 @@ impl Items {
                     self.note_duplicate(&self.lower_of(file), c.ident.span(), &plain);
                     return;
                 }
-                self.insert_constant(&key, file, c, owner);
+                let default_of = named.is_default.then_some(named.trait_name);
+                self.insert_constant(&key, (file, c), owner, default_of);
                 self.note_implemented(plain, &key, named);
                 key
             }

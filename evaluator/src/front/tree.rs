@@ -511,6 +511,8 @@ pub struct Const {
     pub of: Option<Type>,
     /// The traits that type parameters have, by their names.
     pub bounds: HashMap<String, Vec<String>>,
+    /// Trait whose default constant it is.
+    pub default_of: Option<String>,
     /// Value.
     pub value: Expr,
     /// Type.
@@ -694,7 +696,9 @@ impl Library {
     /// Type of the `impl` that gives a function or a constant.
     pub fn owner_of(&self, key: &str) -> Option<&Type> {
         let function = self.functions.get(key).map(|function| &function.of);
-        function.or_else(|| self.consts.get(key).map(|constant| &constant.of))?.as_ref()
+        function
+            .or_else(|| self.consts.get(key).map(|constant| &constant.of))?
+            .as_ref()
     }
 
     /// Keys of the functions that a trait gives a type.

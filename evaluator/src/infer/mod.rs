@@ -226,7 +226,7 @@ struct Checker<'l> {
     params: Vec<String>,
     /// The traits that they have.
     bounds: Option<&'l HashMap<String, Vec<String>>>,
-    /// Type and trait of the default function that is checked.
+    /// Type and trait of the default function or constant that is checked.
     default_of: Option<(&'l str, &'l str)>,
     /// Calls of which the function follows from what it has to give.
     pending: Vec<traits::Pending>,
@@ -333,6 +333,10 @@ impl<'l> Checker<'l> {
 
     fn check_constant(&mut self, constant: &'l Const) {
         self.bounds = Some(&constant.bounds);
+        self.default_of = match (&constant.of, &constant.default_of) {
+            (Some(SourceType::Name(ty, _)), Some(of)) => Some((ty, of)),
+            _ => None,
+        };
         self.declare_generics(&constant.generics, constant.value.span);
         let ty = self.convert_type(&constant.ty, constant.value.span);
         self.check_expr(&constant.value, &ty);

@@ -207,7 +207,10 @@ impl<'l> Checker<'l> {
                 Some(Ty::Unknown)
             }
             ([], _) => match self.made_by(path) {
-                Some((made, fields, _)) if library.find_variant(path).is_some() && fields.is_empty() => Some(made),
+                Some((made, _, types)) if library.find_variant(path).is_some() => match types.is_empty() {
+                    true => Some(made),
+                    false => Some(Ty::Fn(types, Box::new(made))),
+                },
                 _ => None,
             },
         }

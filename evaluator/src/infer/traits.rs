@@ -63,7 +63,8 @@ pub fn operator_function(of: &str, name: &str) -> Option<BinaryOp> {
         BinaryOp::Shl,
         BinaryOp::Shr,
     ];
-    let is_it = |op: &BinaryOp| trait_of(*op).is_some_and(|(own, function)| function == name && (own == of || is_number(of)));
+    let is_it =
+        |op: &BinaryOp| trait_of(*op).is_some_and(|(own, function)| function == name && (own == of || is_number(of)));
     OPERATORS.into_iter().find(is_it)
 }
 
@@ -158,7 +159,12 @@ impl<'l> Checker<'l> {
             false => Vec::new(),
         };
         if let Some((other, of_other)) = self.select_overload(&others, found) {
-            if function.of.as_ref().zip(of_other.of.as_ref()).is_some_and(|(a, b)| a.is_apart(b, &|_| false)) {
+            if function
+                .of
+                .as_ref()
+                .zip(of_other.of.as_ref())
+                .is_some_and(|(a, b)| a.is_apart(b, &|_| false))
+            {
                 return self.one_of_several(&others, (key, function), found, span);
             }
             self.errors.push(
