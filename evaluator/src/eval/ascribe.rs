@@ -2,7 +2,7 @@
 
 use super::Evaluator;
 use super::enums::EnumValue;
-use super::generics::hidden_field;
+use super::generics::{has_waiting, hidden_field};
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::mentioned_in;
@@ -210,15 +210,6 @@ impl Evaluator<'_> {
             )
             .into()),
         }
-    }
-}
-
-/// Returns whether a value is an array whose length is not known yet, or a list of such.
-pub fn has_waiting(value: &Value) -> bool {
-    match value {
-        Value::Elements(_) => true,
-        Value::Array(parts) => parts.first().is_some_and(has_waiting),
-        _ => false,
     }
 }
 

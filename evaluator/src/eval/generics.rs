@@ -4,7 +4,6 @@
 //! length of an array in the structure. It stores a type parameter too if no field shows what it stands for.
 
 use super::Evaluator;
-use super::ascribe::has_waiting;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
@@ -247,4 +246,13 @@ pub fn hidden_field(fields: &[(Name, Value)], parameter: &str) -> Option<Value> 
 
 fn is_parameter(length: &ExprKind, parameter: &str) -> bool {
     matches!(length, ExprKind::Path(path) if matches!(path.as_slice(), [name] if name == parameter))
+}
+
+/// Returns whether a value is an array whose length is not known yet, or a list of such.
+pub fn has_waiting(value: &Value) -> bool {
+    match value {
+        Value::Elements(_) => true,
+        Value::Array(parts) => parts.first().is_some_and(has_waiting),
+        _ => false,
+    }
 }

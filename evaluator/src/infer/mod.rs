@@ -8,6 +8,7 @@
 mod apply;
 mod calls;
 mod closures;
+mod constants;
 mod declared;
 mod exhaustive;
 mod expr;
