@@ -28,7 +28,7 @@ impl Maker {
             _ => format!("sum::<{text}>()"),
         };
         let own = matches!(ty, Ty::I32 | Ty::U32);
-        let found = match self.random.below(20) {
+        let found = match self.random.below(26) {
             0 => format!("{all}.into_iter().flat_map(|{x}: {text}| [{x}, {body}]).{end}"),
             1 => format!(
                 "(0..3usize).flat_map(|{y}| (0..{y}).map(move |{x}| {x} + {y})).map(|{y}| {all}[{y} & 3]).{end}"
@@ -72,6 +72,17 @@ impl Maker {
             17 => format!(
                 "{all}.iter().zip(same::<[{text}; 4]>([{first}; 4]).iter().skip(1)).map(|({x}, {y})| *{x} - *{y}).{end}"
             ),
+            20 => format!("std::iter::once(same::<{text}>({first})).chain({all}).{end}"),
+            21 => format!("std::iter::repeat_n(same::<{text}>({first}), {}).{end}", self.random.between(1, 3)),
+            22 => format!(
+                "std::iter::successors(Some(same::<{text}>({first})), |{x}: &{text}| Some(*{x} + *{x})).take({}).{end}",
+                self.random.between(1, 4)
+            ),
+            23 => format!(
+                "{all}.into_iter().zip(std::iter::repeat(same::<{text}>({first}))).map(|({x}, {y})| {x} - {y}).{end}"
+            ),
+            24 => format!("{all}.into_iter().cycle().take(6).{end}"),
+            25 => format!("std::iter::empty().chain({all}).{end}"),
             18 if own => {
                 let name = self.random.pick(&["min_by_key", "max_by_key"]);
                 format!("{all}.into_iter().{name}(|{x}: &{text}| *{x} & 7).unwrap_or({first})")

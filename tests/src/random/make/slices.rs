@@ -20,7 +20,7 @@ impl Maker {
         let element = self.some(&of, 1);
         let reads = self.random.once_in(2);
         if !reads {
-            let line = match self.random.below(12) {
+            let line = match self.random.below(16) {
                 0 => format!("{own}.swap({index}, {});", self.random.below(4)),
                 1 => format!("{own}.swap({}, {});", self.random.below(4), self.random.below(4)),
                 2 => format!("{own}[1..].reverse();"),
@@ -36,6 +36,23 @@ impl Maker {
                     format!("{own}[1..3].copy_from_slice(&same::<[{text}; 3]>({other})[1..]);")
                 }
                 10 => format!("{own}.fill_with(|| same::<{text}>({element}));"),
+                11 => {
+                    let name = self.random.pick(&["chunks_mut", "chunks_exact_mut"]);
+                    format!("for e in {own}.{name}({}) {{ e[0] = {element}; }}", self.random.between(1, 3))
+                }
+                12 => format!(
+                    "{{ let (l, r) = {own}.split_at_mut({}); std::mem::swap(&mut l[0], &mut r[0]); }}",
+                    self.random.between(1, 3)
+                ),
+                13 => {
+                    let name = self.random.pick(&["split_first_mut", "split_last_mut"]);
+                    format!("if let Some((l, r)) = {own}.{name}() {{ *l = {element}; r[1] = *l; }}")
+                }
+                14 => {
+                    let name = self.random.pick(&["first_mut", "last_mut"]);
+                    format!("if let Some(e) = {own}[1..].{name}() {{ *e = {element}; }}")
+                }
+                15 => format!("if let Some(e) = {own}.get_mut(({index}) + 2) {{ *e = {element}; }}"),
                 _ => format!("{own}[..3].iter_mut().rev().for_each(|e| *e = *e + *e);"),
             };
             self.line(line);
