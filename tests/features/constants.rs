@@ -304,3 +304,55 @@ pub fn lengths_of_results(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
         vector.z + stated[2],
     )
 }
+
+//// Functions and constants of type parameters in closures
+trait Activation {
+    const GAIN: f32;
+    fn apply(x: f32) -> f32;
+}
+
+struct Square;
+impl Activation for Square {
+    const GAIN: f32 = 2.0;
+    fn apply(x: f32) -> f32 {
+        x * x
+    }
+}
+
+struct Times<const N: i32>;
+impl<const N: i32> Activation for Times<N> {
+    const GAIN: f32 = N as f32;
+    fn apply(x: f32) -> f32 {
+        x * N as f32
+    }
+}
+
+struct Layer<const N: usize> {
+    bias: f32,
+}
+
+impl<const N: usize> Layer<N> {
+    const SHARE: f32 = 1.0 / N as f32;
+    fn scaled(x: f32) -> f32 {
+        x * N as f32
+    }
+
+    fn all(&self, v: [f32; 3]) -> [f32; 3] {
+        v.map(|x| Self::scaled(x) * Self::SHARE + self.bias + N as f32)
+    }
+}
+
+fn sum<A: Activation>(v: [f32; 3]) -> f32 {
+    v.map(|x| A::apply(x) + A::GAIN).iter().sum()
+}
+
+pub fn parameters_in_closures(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    let here = color.load(pixel);
+    let v = [here.x, here.y, here.z];
+    vec4(
+        sum::<Square>(v),
+        sum::<Times<3>>(v),
+        Layer::<4> { bias: 0.5 }.all(v)[1],
+        here.w,
+    )
+}

@@ -1,6 +1,6 @@
 //! Effects of a piece of the tree: variables that it may change, and loops that it may leave.
 
-use super::tree::{Block, Expr, ExprKind, Pattern, Statement};
+use super::tree::{Block, Expr, ExprKind, Pattern, Statement, Type, split_qualified};
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 
@@ -258,7 +258,16 @@ pub fn collect_mentioned(b: &Block, out: &mut BTreeSet<String>) {
 /// Every name that an expression mentions.
 pub fn mentioned_in(e: &Expr, out: &mut BTreeSet<String>) {
     match &e.kind {
-        ExprKind::Path(path) | ExprKind::Call(path, ..) => out.extend(path.iter().cloned()),
+        ExprKind::Path(path) | ExprKind::Call(path, ..) => {
+            out.extend(path.iter().cloned());
+            // Type parameters: `<T as Trait>::name`, `T::Space`.
+            let of = path.first().and_then(|first| match split_qualified(first) {
+                Some((ty, ..)) => Some(ty),
+                None => first.split_once("::").map(|(ty, _)| ty),
+            });
+            out.extend(of.map(str::to_owned));
+        }
+        ExprKind::Cast(_, ty) => in_type(ty, out),
         ExprKind::Method(_, name, ..) => {
             out.insert(name.clone());
         }
@@ -275,6 +284,24 @@ pub fn mentioned_in(e: &Expr, out: &mut BTreeSet<String>) {
         _ => {}
     }
     child_exprs(e).into_iter().for_each(|child| mentioned_in(child, out));
+}
+
+/// Names in a type, which may be parameters.
+fn in_type(ty: &Type, out: &mut BTreeSet<String>) {
+    match ty {
+        Type::Name(name, args) => {
+            out.insert(name.clone());
+            args.iter().for_each(|arg| in_type(arg, out));
+        }
+        Type::Tuple(parts) => parts.iter().for_each(|part| in_type(part, out)),
+        Type::Ref(_, inner) => in_type(inner, out),
+        Type::Array(element, len) => {
+            in_type(element, out);
+            len.iter().for_each(|len| mentioned_in(len, out));
+        }
+        Type::Const(value) => mentioned_in(value, out),
+        Type::Fn(..) => {}
+    }
 }
 
 fn in_pattern(pattern: &Pattern, out: &mut BTreeSet<String>) {

@@ -73,7 +73,10 @@ impl Maker {
                 "{all}.iter().zip(same::<[{text}; 4]>([{first}; 4]).iter().skip(1)).map(|({x}, {y})| *{x} - *{y}).{end}"
             ),
             20 => format!("std::iter::once(same::<{text}>({first})).chain({all}).{end}"),
-            21 => format!("std::iter::repeat_n(same::<{text}>({first}), {}).{end}", self.random.between(1, 3)),
+            21 => format!(
+                "std::iter::repeat_n(same::<{text}>({first}), {}).{end}",
+                self.random.between(1, 3)
+            ),
             22 => format!(
                 "std::iter::successors(Some(same::<{text}>({first})), |{x}: &{text}| Some(*{x} + *{x})).take({}).{end}",
                 self.random.between(1, 4)

@@ -38,7 +38,10 @@ impl Maker {
                 10 => format!("{own}.fill_with(|| same::<{text}>({element}));"),
                 11 => {
                     let name = self.random.pick(&["chunks_mut", "chunks_exact_mut"]);
-                    format!("for e in {own}.{name}({}) {{ e[0] = {element}; }}", self.random.between(1, 3))
+                    format!(
+                        "for e in {own}.{name}({}) {{ e[0] = {element}; }}",
+                        self.random.between(1, 3)
+                    )
                 }
                 12 => format!(
                     "{{ let (l, r) = {own}.split_at_mut({}); std::mem::swap(&mut l[0], &mut r[0]); }}",
