@@ -12,8 +12,12 @@ impl Maker {
             return self.float_of_angles(d);
         }
         match self.random.below(8) {
-            // A driver may lose the sign of a zero.
-            0 if coarse => format!("{}.copysign({})", self.float_receiver(d), self.expr(&Ty::F32, d)),
+            // A driver may lose the sign of a zero. That of a NaN is open in Rust, so it gives way to a number.
+            0 if coarse => format!(
+                "{}.copysign(f32::max({}, -1e30))",
+                self.float_receiver(d),
+                self.expr(&Ty::F32, d)
+            ),
             1 if coarse => {
                 let name = self.random.pick(&["rem_euclid", "div_euclid"]);
                 let by = self.random.pick(&["1.5", "-0.75", "3.0"]);
@@ -22,7 +26,10 @@ impl Maker {
             2 => {
                 let names = ["is_infinite", "is_sign_negative", "is_sign_positive"];
                 let name = self.random.pick(&names[..if coarse { 3 } else { 1 }]);
-                format!("(u32::from({}.{name}()) as f32)", self.float_receiver(d))
+                format!(
+                    "(u32::from(f32::max({}, -1e30).{name}()) as f32)",
+                    self.float_receiver(d)
+                )
             }
             3 if coarse => {
                 let (three, two) = (Ty::Vec(Lane::F, 3), Ty::Vec(Lane::F, 2));
@@ -99,7 +106,7 @@ impl Maker {
             1 => format!("{own}.fract_gl()"),
             // Rust leaves open which of two zeros a maximum returns.
             2 => format!("({own} + 0.0).saturate()"),
-            3 => format!("{own}.copysign({other})"),
+            3 => format!("{own}.copysign({other}.max(Vec{n}::splat(-1e30)))"),
             4 => format!("{own}.project_onto_normalized({other})"),
             5 => format!("{own}.reject_from_normalized({other})"),
             6 if coarse => {
