@@ -9,7 +9,13 @@ use std::path::{Path, PathBuf};
 type Modules = BTreeMap<Vec<String>, PathBuf>;
 
 /// Modules whose files define types that hold each other.
-const TYPES_OF_EACH_OTHER: [&[&str]; 1] = [&["eval::control", "eval::enums", "eval::value"]];
+const TYPES_OF_EACH_OTHER: [&[&str]; 1] = [&[
+    "eval::control",
+    "eval::endless",
+    "eval::enums",
+    "eval::types",
+    "eval::value",
+]];
 
 /// Files of the evaluator whose functions call each other: expressions hold statements, loops hold loops.
 const MUTUALLY_RECURSIVE: [&[&str]; 4] = [

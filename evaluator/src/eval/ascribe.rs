@@ -2,7 +2,8 @@
 
 use super::Evaluator;
 use super::enums::EnumValue;
-use super::generics::{has_waiting, hidden_field};
+use super::generics::has_waiting;
+use super::types::hidden_field;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::mentioned_in;

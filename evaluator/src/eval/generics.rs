@@ -4,16 +4,12 @@
 //! length of an array in the structure. It stores a type parameter too if no field shows what it stands for.
 
 use super::Evaluator;
+use super::types::{hidden, hidden_field};
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::name::Name;
 use crate::front::tree::{ExprKind, Function, Generic, Type as SourceType};
 use crate::ir::Type;
-
-/// Returns the name of the hidden field of a parameter, which no kernel can use.
-fn hidden(parameter: &str) -> Name {
-    format!("#{parameter}").into()
-}
 
 impl Evaluator<'_> {
     /// Returns the constant parameters of a generic function: those stated, or those deduced from the types of its
@@ -235,13 +231,6 @@ impl Evaluator<'_> {
             other => self.known_int(other),
         }
     }
-}
-
-/// Returns a parameter stored in a structure's value.
-pub fn hidden_field(fields: &[(Name, Value)], parameter: &str) -> Option<Value> {
-    let name = hidden(parameter);
-    let found = fields.iter().find(|(field, _)| *field == name);
-    found.map(|(_, value)| value.clone())
 }
 
 fn is_parameter(length: &ExprKind, parameter: &str) -> bool {

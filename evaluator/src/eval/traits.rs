@@ -2,9 +2,9 @@
 //! parameters. A value carries its type, so a call resolves its function from the values alone.
 
 use super::Evaluator;
-use super::generics::hidden_field;
 use super::objects::OBJECT;
 use super::types::KnownType;
+use super::types::hidden_field;
 use super::value::{Eval, Exit, Place, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Function, Generic, Type as SourceType, qualify_name, split_qualified};

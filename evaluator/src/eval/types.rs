@@ -1,10 +1,22 @@
 //! Types that type parameters stand for, with their arguments as far as these are known: the `Lanczos<3>` of `T`.
 
 use super::Evaluator;
-use super::generics::hidden_field;
 use super::value::Value;
+use crate::front::name::Name;
 use crate::front::tree::{Generic, Type as SourceType};
 use std::rc::Rc;
+
+/// Returns the name of the hidden field of a parameter, which no kernel can use.
+pub fn hidden(parameter: &str) -> Name {
+    format!("#{parameter}").into()
+}
+
+/// Returns a parameter stored in a structure's value.
+pub fn hidden_field(fields: &[(Name, Value)], parameter: &str) -> Option<Value> {
+    let name = hidden(parameter);
+    let found = fields.iter().find(|(field, _)| *field == name);
+    found.map(|(_, value)| value.clone())
+}
 
 /// A type by its name.
 #[derive(Clone, Debug, PartialEq)]

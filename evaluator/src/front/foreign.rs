@@ -48,7 +48,8 @@ impl Import {
     /// that they import from elsewhere.
     pub fn missing_error(self, library: &Library, elsewhere: &HashSet<String>) -> Option<(String, Diagnostic)> {
         let (there, here) = self.name;
-        let of_parent = ["super", "self", "crate"].contains(&self.root.as_str());
+        // A module of these files that is named has to have the name itself.
+        let of_parent = ["super", "self", "crate"].contains(&self.of.as_str());
         if of_parent && (is_in_prelude(&there) || elsewhere.contains(&there)) {
             return None;
         }

@@ -322,17 +322,21 @@ impl<'l> Checker<'l> {
                 "select" => Ty::Unknown,
                 "min" | "max" => self.takes_own(args, Ty::Bool),
                 "clamp" => self.check_arguments(args, &[Ty::Bool, Ty::Bool], Ty::Bool),
-                _ => self.unknown_method(args),
+                _ => {
+                    self.no_method(receiver, name, args.len(), span);
+                    self.unknown_method(args)
+                }
             },
             _ => self.unknown_method(args),
         }
     }
 
-    /// Notes an error about a method that a number or a vector has not; with other arguments, the evaluator says what it takes.
+    /// Notes an error about a method that a number, a boolean or a vector has not; with other arguments, the evaluator says what it takes.
     fn no_method(&mut self, receiver: &Ty, name: &str, arguments: usize, span: Span) {
         let ty = match receiver {
             Ty::Vector(kind, lanes) => Type::value(*kind, *lanes),
             Ty::Int(kind) => Type::scalar(kind.scalar()),
+            Ty::Bool => Type::BOOL,
             _ => Type::F32,
         };
         // Of a quad's messages the evaluator says what they need.
@@ -368,7 +372,7 @@ impl<'l> Checker<'l> {
             "powi" => self.check_arguments(args, &[Ty::I32], float),
             "is_nan" | "is_finite" => self.check_arguments(args, &[], Ty::Bool),
             "to_bits" => self.check_arguments(args, &[], Ty::U32),
-            _ if args.is_empty() => float,
+            _ if args.is_empty() && methods::has_method(Type::F32, name) => float,
             _ => self.unknown_method(args),
         }
     }
