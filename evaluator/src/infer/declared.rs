@@ -4,42 +4,30 @@ use super::types::Ty;
 use super::{Checker, Known, infer_item};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Const, Function, Generic, Library, Type};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 
-/// Notes where functions and constants are unlike what their traits say of them. A trait of which the kernel reaches something is
-/// looked at for every type.
-pub fn check_declared(library: &Library, reached: &BTreeSet<String>, errors: &mut Vec<Diagnostic>) {
-    let functions = || {
-        library.implemented.iter().flat_map(|(key, implemented)| {
-            let (ty, name) = key.split_once("::").unwrap_or_default();
-            implemented.iter().filter_map(move |i| {
-                let declared = library.traits.get(&i.of)?.functions.get(name)?;
-                Some((&i.of, ty, name, declared, &i.key, library.functions.get(&i.key)?))
-            })
+/// Notes where functions and constants are unlike what their traits say of them, also those that the kernel does not reach.
+pub fn check_declared(library: &Library, errors: &mut Vec<Diagnostic>) {
+    let functions = library.implemented.iter().flat_map(|(key, implemented)| {
+        let (ty, name) = key.split_once("::").unwrap_or_default();
+        implemented.iter().filter_map(move |i| {
+            let declared = library.traits.get(&i.of)?.functions.get(name)?;
+            Some((&i.of, ty, name, declared, library.functions.get(&i.key)?))
         })
-    };
-    let constants = || {
-        library.implements.iter().flat_map(|(ty, of)| {
-            let declared = library.traits.get(of).into_iter().flat_map(|of| &of.consts);
-            declared.flat_map(move |(name, declared)| {
-                let keys = library.trait_constants(ty, of, name).into_iter();
-                keys.map(move |key| (of, declared, &library.consts[key]))
-            })
+    });
+    let constants = library.implements.iter().flat_map(|(ty, of)| {
+        let declared = library.traits.get(of).into_iter().flat_map(|of| &of.consts);
+        declared.flat_map(move |(name, declared)| {
+            let keys = library.trait_constants(ty, of, name).into_iter();
+            keys.map(move |key| (of, declared, &library.consts[key]))
         })
-    };
-    let called = functions()
-        .filter(|(.., key, _)| reached.contains(*key))
-        .map(|(of, ..)| of);
-    let read = constants()
-        .filter(|(.., given)| reached.contains(&given.name))
-        .map(|(of, ..)| of);
-    let traits: BTreeSet<&String> = called.chain(read).collect();
-    for (of, ty, name, declared, _, function) in functions().filter(|(of, ..)| traits.contains(of)) {
+    });
+    for (of, ty, name, declared, function) in functions {
         infer_item(library, &mut Known::default(), errors, |checker| {
             checker.as_declared((of, declared), (ty, function), name);
         });
     }
-    for (of, declared, given) in constants().filter(|(of, ..)| traits.contains(of)) {
+    for (of, declared, given) in constants {
         infer_item(library, &mut Known::default(), errors, |checker| {
             checker.constant_as_declared(of, declared, given);
         });
@@ -88,6 +76,10 @@ impl<'l> Checker<'l> {
         let given = HashMap::from([("Self".to_owned(), own)]);
         let types = |f: &'l Function| f.params.iter().map(|p| &p.ty).chain([&f.result]);
         for (k, (wanted, found)) in types(declared).zip(types(function)).enumerate() {
+            // Receivers are compared as they are written, by the front end.
+            if function.params.get(k).is_some_and(|param| param.name == "self") {
+                continue;
+            }
             let Some((wanted, found)) = self.type_difference(wanted, found, &given, span) else {
                 continue;
             };

@@ -130,7 +130,7 @@ fn infer_items(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Ve
             infer_item(library, known, &mut errors, |checker| checker.check_constant(constant));
         }
     }
-    declared::check_declared(library, reached, &mut errors);
+    declared::check_declared(library, &mut errors);
     declared::check_owners(library, |of| reached.contains(of), &mut errors);
     let mut known = Known::default();
     for (name, generics, fields) in fields_of_types(library) {

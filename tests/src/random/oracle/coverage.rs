@@ -57,7 +57,7 @@ const CONSTRUCTS: &[(&str, &str)] = &[
     ("a runtime range by steps", "..(q & 3)).step_by(2)"),
     ("runtime ranges side by side", ").zip(("),
     ("a runtime range and its places", "..(q & 3)).enumerate()"),
-    ("a loop over a runtime range behind adaptors", "in (0..(q & 3)).map("),
+    ("a loop over a runtime range behind adaptors", "in (0..(q & 3))."),
     ("arrays that are flattened", ".flat_map(|"),
     ("a generic structure of a constant", "Ring::<"),
     ("a constant that a type tells", ": [f32; 3] = steps("),
