@@ -251,20 +251,7 @@ impl<'a> Evaluator<'a> {
     fn unknown_function(&self, path: &[String], span: Span) -> Exit {
         let name = path.join("::");
         let mut known: Vec<&str> = self.library.functions.keys().map(String::as_str).collect();
-        known.extend([
-            "mix",
-            "smoothstep",
-            "step",
-            "saturate",
-            "fract",
-            "sign",
-            "round",
-            "inverse_sqrt",
-            "tally",
-            "lane_position",
-            "quad_vector",
-            "quad_select",
-        ]);
+        known.extend(crate::front::FUNCTIONS);
         known.sort_unstable();
         let close = known.iter().find(|k| crate::suggest::is_close(&name, k));
         let help = match close {

@@ -76,20 +76,10 @@ impl Import {
 
 /// Returns whether the prelude has a type or a function of a name.
 fn is_in_prelude(name: &str) -> bool {
-    let of_numbers = [
-        "mix",
-        "options",
-        "smoothstep",
-        "step",
-        "tally",
-        "lane_position",
-        "quad_select",
-        "quad_vector",
-    ];
     let constructs = ["vec", "ivec", "uvec", "bvec", "mat"]
         .iter()
         .any(|prefix| matches!(name.strip_prefix(prefix), Some("2" | "3" | "4")));
-    is_prelude_type(name) || constructs || super::UNARY.contains(&name) || of_numbers.contains(&name) || name == "Quat"
+    is_prelude_type(name) || constructs || super::FUNCTIONS.contains(&name) || ["Quat", "options"].contains(&name)
 }
 
 /// Returns whether `name` is a method of the type `of`.

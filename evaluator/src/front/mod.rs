@@ -91,6 +91,22 @@ pub const CHANGING: [&str; 23] = [
 /// Functions of the prelude that take a float or a vector and give one of its type, and do for a closure by their names.
 pub const UNARY: [&str; 5] = ["fract", "inverse_sqrt", "round", "saturate", "sign"];
 
+/// Functions of the prelude, in the order of their names.
+pub const FUNCTIONS: [&str; 12] = [
+    "fract",
+    "inverse_sqrt",
+    "lane_position",
+    "mix",
+    "quad_select",
+    "quad_vector",
+    "round",
+    "saturate",
+    "sign",
+    "smoothstep",
+    "step",
+    "tally",
+];
+
 /// Definitions in the files of a kernel.
 #[derive(Debug)]
 pub struct Parsed {

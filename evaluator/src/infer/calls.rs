@@ -467,21 +467,7 @@ impl<'l> Checker<'l> {
 
     /// Notes an error about a name that is called and is no function.
     fn no_function(&mut self, name: &str, span: Span) {
-        const PRELUDE: [&str; 12] = [
-            "fract",
-            "inverse_sqrt",
-            "lane_position",
-            "mix",
-            "quad_select",
-            "quad_vector",
-            "round",
-            "saturate",
-            "sign",
-            "smoothstep",
-            "step",
-            "tally",
-        ];
-        if PRELUDE.contains(&name) {
+        if crate::front::FUNCTIONS.contains(&name) {
             // With other arguments; the evaluator says which it takes.
             return;
         }
@@ -513,7 +499,7 @@ Code::QuadMessage,
             ),
             None => {
                 let mut known: Vec<&str> = self.library.functions.keys().map(String::as_str).collect();
-                known.extend(PRELUDE);
+                known.extend(crate::front::FUNCTIONS);
                 known.sort_unstable();
                 let close = known.iter().find(|known| crate::suggest::is_close(name, known));
                 Diagnostic::error_at(Code::UnknownFunction, span, format!("cannot find function `{name}`"))
