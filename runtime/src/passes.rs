@@ -1,8 +1,6 @@
 //! Passes that are made when they are first used.
 
 use crate::{Error, Pass, PassOptions, Shader};
-use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 use wgpu::Device;
 
 /// Passes of several shaders on one device, each made when it is first asked for: for a set of shaders of which a program runs
@@ -21,8 +19,8 @@ use wgpu::Device;
 pub struct Passes {
     device: Device,
     options: PassOptions,
-    /// Passes by the hash of their shaders' texts.
-    made: BTreeMap<u64, Pass>,
+    /// Passes with the hashes of their shaders' texts.
+    made: Vec<(u64, Pass)>,
 }
 
 impl Passes {
@@ -31,7 +29,7 @@ impl Passes {
         Passes {
             device: device.clone(),
             options,
-            made: BTreeMap::new(),
+            made: Vec::new(),
         }
     }
 
@@ -41,10 +39,17 @@ impl Passes {
     ///
     /// As [`Pass::from_shader`]. A later call tries again.
     pub fn get(&mut self, shader: &Shader<'_>) -> Result<&Pass, Error> {
-        match self.made.entry(shader.hash) {
-            Entry::Occupied(made) => Ok(made.into_mut()),
-            Entry::Vacant(place) => Ok(place.insert(Pass::from_shader(&self.device, shader, &self.options)?)),
-        }
+        // The same text with other defaults of its uniforms is another shader.
+        let is_of = |(hash, pass): &(u64, Pass)| *hash == shader.hash && *pass.plan == shader.plan;
+        let at = match self.made.iter().position(is_of) {
+            Some(at) => at,
+            None => {
+                let pass = Pass::from_shader(&self.device, shader, &self.options)?;
+                self.made.push((shader.hash, pass));
+                self.made.len() - 1
+            }
+        };
+        Ok(&self.made[at].1)
     }
 
     /// Number of passes that were made.

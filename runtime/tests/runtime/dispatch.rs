@@ -4,7 +4,7 @@ use crate::common;
 
 use common::{ADD, COPY, Fixture, Gpu, Kernel, LAYERS, STAGES, Stage, array_view, clear_depth, ramp, view};
 use straightline_runtime::manifest::Manifest;
-use straightline_runtime::{BindOptions, Pass, PassOptions, wgpu};
+use straightline_runtime::{BindOptions, Pass, PassOptions, Passes, Shader, wgpu};
 use wgpu::{TextureFormat, TextureUsages};
 
 const SIZES: [[u32; 2]; 6] = [[1, 1], [1, 7], [7, 1], [8, 8], [9, 16], [33, 17]];
@@ -311,5 +311,23 @@ fn what_is_bound_outlives_all_that_it_was_made_of() {
             gpu.submit(encoder);
             assert_eq!(gpu.download(&target), ramp(size, 1), "{stage:?}");
         }
+    }
+}
+
+#[test]
+fn a_shader_is_compiled_once() {
+    let gpu = Gpu::new();
+    let (copy, add) = (COPY.emit(Stage::Compute), ADD.emit(Stage::Compute));
+    let other = add.manifest.replace("\"default\": 2.0", "\"default\": 3.0");
+    let read = |manifest, wgsl| Shader::from_json(manifest, wgsl).expect("a shader");
+    let [copy, add, other] = [
+        read(&copy.manifest, &copy.wgsl),
+        read(&add.manifest, &add.wgsl),
+        read(&other, &add.wgsl),
+    ];
+    let mut passes = Passes::new(&gpu.device, PassOptions::default());
+    for (shader, made) in [(&copy, 1), (&add, 2), (&copy, 2), (&add, 2), (&other, 3), (&add, 3)] {
+        assert_eq!(passes.get(shader).expect("a pass").kernel(), shader.kernel());
+        assert_eq!(passes.made(), made);
     }
 }
