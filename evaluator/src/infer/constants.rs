@@ -7,7 +7,7 @@ use crate::front::tree::{Expr, Generic, generic_arguments, split_qualified};
 use std::collections::HashMap;
 
 impl<'l> Checker<'l> {
-    /// Those of some functions or constants whose `impl` may be of the type before the function, if that is written with arguments.
+    /// Returns those keys of functions or constants whose `impl` may be of the type before the function, if that is written with arguments.
     pub fn keys_of_owner(&mut self, keys: &[&'l str], constants: &'l [Expr]) -> Vec<&'l str> {
         let Some(owner) = generic_arguments(constants).1 else {
             return keys.to_vec();

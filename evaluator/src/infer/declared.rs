@@ -4,30 +4,41 @@ use super::types::Ty;
 use super::{Checker, Known, infer_item};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::tree::{Const, Function, Generic, Library, Type};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
-/// Notes where functions and constants are unlike what their traits say of them, also those that the kernel does not reach.
-pub fn check_declared(library: &Library, errors: &mut Vec<Diagnostic>) {
-    let functions = library.implemented.iter().flat_map(|(key, implemented)| {
-        let (ty, name) = key.split_once("::").unwrap_or_default();
-        implemented.iter().filter_map(move |i| {
-            let declared = library.traits.get(&i.of)?.functions.get(name)?;
-            Some((&i.of, ty, name, declared, library.functions.get(&i.key)?))
+/// Notes where functions and constants are unlike what their traits say of them: of all traits, or of those of which the kernel
+/// reaches something, which are looked at for every type.
+pub fn check_declared(library: &Library, reached: Option<&BTreeSet<String>>, errors: &mut Vec<Diagnostic>) {
+    let functions = || {
+        library.implemented.iter().flat_map(|(key, implemented)| {
+            let (ty, name) = key.split_once("::").unwrap_or_default();
+            implemented.iter().filter_map(move |i| {
+                let declared = library.traits.get(&i.of)?.functions.get(name)?;
+                Some((&i.of, ty, name, declared, &i.key, library.functions.get(&i.key)?))
+            })
         })
-    });
-    let constants = library.implements.iter().flat_map(|(ty, of)| {
-        let declared = library.traits.get(of).into_iter().flat_map(|of| &of.consts);
-        declared.flat_map(move |(name, declared)| {
-            let keys = library.trait_constants(ty, of, name).into_iter();
-            keys.map(move |key| (of, declared, &library.consts[key]))
+    };
+    let constants = || {
+        library.implements.iter().flat_map(|(ty, of)| {
+            let declared = library.traits.get(of).into_iter().flat_map(|of| &of.consts);
+            declared.flat_map(move |(name, declared)| {
+                let keys = library.trait_constants(ty, of, name).into_iter();
+                keys.map(move |key| (of, declared, &library.consts[key]))
+            })
         })
-    });
-    for (of, ty, name, declared, function) in functions {
+    };
+    let is_reached = |key: &String| reached.is_none_or(|reached| reached.contains(key));
+    let called = functions().filter(|(.., key, _)| is_reached(key)).map(|(of, ..)| of);
+    let read = constants()
+        .filter(|(.., given)| is_reached(&given.name))
+        .map(|(of, ..)| of);
+    let traits: BTreeSet<&String> = called.chain(read).collect();
+    for (of, ty, name, declared, _, function) in functions().filter(|(of, ..)| traits.contains(of)) {
         infer_item(library, &mut Known::default(), errors, |checker| {
             checker.as_declared((of, declared), (ty, function), name);
         });
     }
-    for (of, declared, given) in constants {
+    for (of, declared, given) in constants().filter(|(of, ..)| traits.contains(of)) {
         infer_item(library, &mut Known::default(), errors, |checker| {
             checker.constant_as_declared(of, declared, given);
         });

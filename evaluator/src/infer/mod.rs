@@ -63,7 +63,7 @@ pub fn infer_types(library: &mut Library, reached: &BTreeSet<String>) -> Result<
 }
 
 /// Errors that rustc reports too, wherever it meets them.
-const OF_RUST: [Code; 15] = [
+const OF_RUST: [Code; 16] = [
     Code::UnknownField,
     Code::UnknownLabel,
     Code::DefinedTwice,
@@ -77,6 +77,7 @@ const OF_RUST: [Code; 15] = [
     Code::RefutablePattern,
     Code::QuestionMark,
     Code::Leaving,
+    Code::TraitImplementation,
     Code::DivisionByZero,
     Code::Overflow,
 ];
@@ -99,6 +100,7 @@ pub fn check_others(library: &Library, others: &BTreeSet<String>, unknown_names:
             }
         });
     }
+    declared::check_declared(library, None, &mut errors);
     declared::check_owners(library, |_| true, &mut errors);
     for (_, generics, fields) in fields_of_types(library) {
         for (_, ty, span) in fields {
@@ -130,7 +132,7 @@ fn infer_items(library: &Library, reached: &BTreeSet<String>) -> (KnownItems, Ve
             infer_item(library, known, &mut errors, |checker| checker.check_constant(constant));
         }
     }
-    declared::check_declared(library, &mut errors);
+    declared::check_declared(library, Some(reached), &mut errors);
     declared::check_owners(library, |of| reached.contains(of), &mut errors);
     let mut known = Known::default();
     for (name, generics, fields) in fields_of_types(library) {
