@@ -118,7 +118,7 @@ impl<'a> Binder<'a> {
 fn uniforms(preset: Preset, projection: &Projection, size: [u32; 2]) -> Vec<(&'static str, UniformValue)> {
     let [corner, right, down] = projection.rays(size);
     let [near, far] = projection.planes();
-    // As the presets have for relative differences at the depth where the picture is 1 high. The paper's filter compares scene units.
+    // Scales of the presets for relative differences, at the depth where the picture is 1 high. `paper` compares scene units.
     let depth_scale = match preset {
         Preset::Paper => 1.0,
         Preset::Fast => 3.0 / projection.height(),

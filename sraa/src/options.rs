@@ -13,9 +13,9 @@ pub enum Preset {
     Fast,
     /// Planes in place of depths, and a search for surfaces that no neighbour shows.
     Edges,
-    /// The same, and surfaces smaller than a pixel are shaded too: shading follows [`Sraa::place`](crate::Sraa::place).
+    /// `Edges`, with surfaces smaller than a pixel shaded too: shading follows [`Sraa::place`](crate::Sraa::place).
     Full,
-    /// The same with a guide: an estimate of the colour at every sample, which is drawn with the geometry.
+    /// `Full` with a guide: an estimate of the colour at every sample, which is drawn with the geometry.
     Guided,
 }
 
@@ -34,17 +34,17 @@ impl Preset {
         }
     }
 
-    /// Whether normals are compared.
+    /// Returns whether normals are compared.
     pub fn has_normals(self) -> bool {
         self != Preset::Fast
     }
 
-    /// Whether each pixel is shaded where [`Sraa::place`](crate::Sraa::place) says.
+    /// Returns whether each pixel is shaded where [`Sraa::place`](crate::Sraa::place) says.
     pub fn has_place(self) -> bool {
         matches!(self, Preset::Full | Preset::Guided)
     }
 
-    /// Whether a guide is drawn.
+    /// Returns whether a guide is drawn.
     pub fn has_guide(self) -> bool {
         self == Preset::Guided
     }
@@ -130,7 +130,7 @@ pub struct Options {
     pub preset: Preset,
     /// Geometry samples of a pixel.
     pub samples: Samples,
-    /// Whether normals are drawn even if the preset does not compare them.
+    /// Draws normals even if the preset does not compare them.
     pub draw_normals: bool,
 }
 

@@ -94,12 +94,12 @@ impl Projection {
         self.matrix
     }
 
-    /// Whether the camera has no perspective.
+    /// Returns whether the camera has no perspective.
     pub fn is_parallel(&self) -> bool {
         self.is_parallel
     }
 
-    /// Whether nearer surfaces have a greater depth.
+    /// Returns whether nearer surfaces have a greater depth.
     pub fn is_reversed(&self) -> bool {
         self.is_reversed
     }

@@ -313,7 +313,7 @@ fn bindings_of_variants_compile() {
     config.compile().unwrap_or_else(|e| panic!("{e}"));
     rustc(&folder, "straightline.rs", &BINDINGS);
     let written = std::fs::read_to_string(folder.join("straightline.rs")).expect("written");
-    // What is not read decides nothing: with `on`, `result`; without it, `tau`.
+    // Options that are not read decide nothing: `result` with `on`, `tau` without it.
     for part in [
         "24 combinations of options, 10 shaders",
         "pub enum ResultValue {",

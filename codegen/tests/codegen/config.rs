@@ -63,7 +63,7 @@ fn variants_that_cannot_be_are_refused_by_their_options() {
     };
     let error = refused(|v| v.set("metric", ["depth", "dept"]).set("mask", ["none", "branch"]));
     assert!(error.starts_with("with metric=dept mask=none:\nerror[E0"), "{error}");
-    // The same error of another combination is not said again.
+    // Another combination with the same error is not named.
     assert_eq!(error.matches("with metric").count(), 1, "{error}");
     let error = refused(|v| v.set("pattern", ["latin16"]));
     assert_eq!(

@@ -228,7 +228,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// What a sequence has next.
+/// Next value of a sequence.
 enum Next {
     Value(Value),
     /// An option of which a runtime value decides.

@@ -214,7 +214,7 @@ impl Evaluator<'_> {
             }
         }
         let mut completed = fields.clone();
-        // What is wrong with a field is refused where the type is stated.
+        // A wrong field is refused where the type is stated.
         if fields.len() > definition.map_or(0, |definition| definition.fields.len())
             && self.complete_fields(name, &mut completed, span).is_ok()
         {

@@ -185,7 +185,7 @@ impl Evaluator<'_> {
             .help("write out one of the values in the cycle")
             .into());
         }
-        // Where no type is written, the parameters of its `impl` have the values of the function that mentions it.
+        // The parameters of its `impl`, if no type is written, have the values of the function that mentions it.
         let mut given = Vec::new();
         for generic in &constant.generics {
             let of = constant.of.as_ref();
