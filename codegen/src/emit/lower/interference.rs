@@ -1,17 +1,38 @@
 //! Interference of array versions that are live at the same time, computed from the end of the schedule to its beginning.
 //!
 //! A version is written when it is created, carried into a loop, or yielded by a branch. All other versions live after that
-//! write must be in other variables.
+//! write must be in other variables, unless only elements of them are read that the new version shares.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
-use straightline_evaluator::ir::{Graph, NodeId, Op, RegionId};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use straightline_evaluator::ir::{Graph, NodeId, Op, RegionId, Type};
 use straightline_evaluator::passes::{Block, Schedule, Step};
 
 /// Pairs of versions of which one is live where the other is written; symmetric.
 pub type Interference = HashMap<NodeId, HashSet<NodeId>>;
 
 /// Versions that are live after a place.
-type Needed = BTreeSet<NodeId>;
+type Needed = BTreeMap<NodeId, Elements>;
+
+/// Elements of an array that are read.
+#[derive(Clone, Debug, PartialEq)]
+enum Elements {
+    /// All, or some that are not known.
+    All,
+    /// Those with these indices.
+    Only(BTreeSet<u32>),
+}
+
+impl Elements {
+    fn add(&mut self, other: Elements) {
+        match (&mut *self, other) {
+            (Elements::Only(known), Elements::Only(other)) => known.extend(other),
+            _ => *self = Elements::All,
+        }
+    }
+}
+
+/// Number of writes between two versions after which they are assumed to share no element.
+const FAR: usize = 64;
 
 /// Finds the interference of the arrays of a scheduled graph.
 pub fn find_interference(graph: &Graph, schedule: &Schedule) -> Interference {
@@ -68,8 +89,14 @@ impl Walk<'_> {
                     if node.op == Op::ArraySet {
                         self.write_version(*id, needed);
                     }
-                    if !matches!(node.op, Op::Result(_)) {
-                        node.args.iter().for_each(|arg| self.read_version(*arg, needed));
+                    match node.op {
+                        Op::Result(_) => {}
+                        Op::ArrayGet => {
+                            let read = element_index(self.graph, *id);
+                            let read = read.map_or(Elements::All, |index| Elements::Only(BTreeSet::from([index])));
+                            self.read_elements(node.args[0], read, needed);
+                        }
+                        _ => node.args.iter().for_each(|arg| self.read_version(*arg, needed)),
                     }
                 }
                 Step::Loop { node, body } => self.walk_loop(*node, body, needed),
@@ -82,14 +109,17 @@ impl Walk<'_> {
         let inside = self.graph.regions_of(node)[0];
         let region = self.graph.region(inside);
         // Values from outside that the next iteration reads are live at the end of each iteration.
-        let mut outside = Needed::new();
+        let mut outside = BTreeSet::new();
         self.collect_read(inside, body, &mut outside);
-        needed.extend(outside.iter().copied());
+        let all = |versions: &BTreeSet<NodeId>| -> Vec<_> {
+            versions.iter().map(|version| (*version, Elements::All)).collect()
+        };
+        needed.extend(all(&outside));
         let carried = |k: usize| region.params[k + 1];
         (0..region.results.len()).for_each(|k| self.write_version(carried(k), needed));
         region.yielded_values().for_each(|id| self.read_version(id, needed));
         self.walk_block(body, needed);
-        needed.extend(outside);
+        needed.extend(all(&outside));
         for (k, init) in self.graph.node(node).args[2..].iter().enumerate().rev() {
             self.write_version(carried(k), needed);
             self.read_version(*init, needed);
@@ -107,7 +137,9 @@ impl Walk<'_> {
                 self.read_version(self.graph.region(region).results[*k], &mut side);
             }
             self.walk_block(block, &mut side);
-            needed.append(&mut side);
+            for (version, elements) in side {
+                add_needed(needed, version, elements);
+            }
         }
     }
 
@@ -117,28 +149,58 @@ impl Walk<'_> {
             return;
         };
         needed.remove(&version);
-        for other in needed.iter() {
+        for (other, elements) in needed.iter() {
+            if self.shares(version, *other, elements) {
+                continue;
+            }
             self.found.entry(version).or_default().insert(*other);
             self.found.entry(*other).or_default().insert(version);
         }
     }
 
     fn read_version(&self, id: NodeId, needed: &mut Needed) {
-        needed.extend(array_version(self.graph, id));
+        self.read_elements(id, Elements::All, needed);
+    }
+
+    fn read_elements(&self, id: NodeId, elements: Elements, needed: &mut Needed) {
+        if let Some(version) = array_version(self.graph, id) {
+            add_needed(needed, version, elements);
+        }
+    }
+
+    /// Returns whether a version was made from another one by writes to elements other than `elements`.
+    fn shares(&self, version: NodeId, other: NodeId, elements: &Elements) -> bool {
+        let Elements::Only(elements) = elements else {
+            return false;
+        };
+        let mut at = version;
+        for _ in 0..FAR {
+            let node = self.graph.node(at);
+            let written = element_index(self.graph, at).filter(|_| node.op == Op::ArraySet);
+            if written.is_none_or(|written| elements.contains(&written)) {
+                return false;
+            }
+            match array_version(self.graph, node.args[0]) {
+                Some(base) if base == other => return true,
+                Some(base) => at = base,
+                None => return false,
+            }
+        }
+        false
     }
 
     /// Collects the versions that a loop's body reads and does not create.
-    fn collect_read(&self, region: RegionId, body: &Block, read: &mut Needed) {
-        let mut made: Needed = self.graph.region(region).params.iter().copied().collect();
+    fn collect_read(&self, region: RegionId, body: &Block, read: &mut BTreeSet<NodeId>) {
+        let mut made: BTreeSet<NodeId> = self.graph.region(region).params.iter().copied().collect();
         self.collect_versions(body, read, &mut made);
         self.graph
             .region(region)
             .yielded_values()
-            .for_each(|id| self.read_version(id, read));
+            .for_each(|id| read.extend(array_version(self.graph, id)));
         read.retain(|version| !made.contains(version));
     }
 
-    fn collect_versions(&self, block: &Block, read: &mut Needed, made: &mut Needed) {
+    fn collect_versions(&self, block: &Block, read: &mut BTreeSet<NodeId>, made: &mut BTreeSet<NodeId>) {
         for step in &block.steps {
             let (node, blocks): (_, &[&Block]) = match step {
                 Step::Eval(id) => (*id, &[]),
@@ -149,7 +211,7 @@ impl Walk<'_> {
                 .node(node)
                 .args
                 .iter()
-                .for_each(|arg| self.read_version(*arg, read));
+                .for_each(|arg| read.extend(array_version(self.graph, *arg)));
             made.extend(array_version(self.graph, node));
             let results = self.results.get(&node).into_iter().flatten();
             made.extend(results.filter_map(|(id, _)| array_version(self.graph, *id)));
@@ -158,9 +220,23 @@ impl Walk<'_> {
                 self.graph
                     .region(region)
                     .yielded_values()
-                    .for_each(|id| self.read_version(id, read));
+                    .for_each(|id| read.extend(array_version(self.graph, id)));
             }
             blocks.iter().for_each(|block| self.collect_versions(block, read, made));
         }
     }
+}
+
+fn add_needed(needed: &mut Needed, version: NodeId, elements: Elements) {
+    match needed.get_mut(&version) {
+        Some(known) => known.add(elements),
+        None => _ = needed.insert(version, elements),
+    }
+}
+
+/// Returns the index of the element that an operation reads or writes, if it is a constant inside the array.
+fn element_index(graph: &Graph, id: NodeId) -> Option<u32> {
+    let args = &graph.node(id).args;
+    let [index, ..] = graph.constant_bits(*args.get(1)?)?;
+    matches!(graph.ty(args[0]), Type::Array { len, .. } if index < len).then_some(index)
 }
