@@ -3,31 +3,12 @@
 mod code;
 mod view;
 
+pub use crate::ir::Span;
 pub use code::Code;
 use codespan_reporting::diagnostic::Label;
 use std::fmt;
 use std::sync::Arc;
 use view::{Views, printable_message, written_out};
-
-/// Range of bytes in a source file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Span {
-    /// Index of the file in [`Errors::files`].
-    pub file: u32,
-    /// First byte.
-    pub start: u32,
-    /// Byte after the last one.
-    pub end: u32,
-    /// Line of the first byte, from 1.
-    pub line: u32,
-    /// Column of the first byte in characters, from 1.
-    pub column: u32,
-}
-
-impl Span {
-    /// File index of locations inside the built-in library, which is no file of a kernel.
-    pub const LIBRARY: u32 = u32::MAX;
-}
 
 /// A source file, kept to show the code around an error.
 #[derive(Clone, Debug, PartialEq, Eq)]

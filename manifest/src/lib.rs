@@ -21,6 +21,8 @@ pub mod plan;
 #[cfg(feature = "json")]
 mod precision;
 #[cfg(feature = "json")]
+mod source_map;
+#[cfg(feature = "json")]
 mod tuned;
 mod value;
 mod words;
@@ -40,6 +42,8 @@ pub use override_value::Override;
 pub use override_value::OverrideType;
 #[cfg(feature = "json")]
 pub use precision::Precision;
+#[cfg(feature = "json")]
+pub use source_map::{MappedStatement, SOURCE_MAP_SCHEMA, SourceMap};
 #[cfg(feature = "json")]
 pub use tuned::{LeftOut, Tuned};
 pub use value::{Element, NotAType, Scalar, ValueType};

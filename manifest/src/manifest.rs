@@ -1,6 +1,7 @@
 //! The manifest: everything that a host must know of one shader, as JSON.
 
 use crate::chain::CHAIN_SCHEMA;
+use crate::source_map::SOURCE_MAP_SCHEMA;
 use crate::{Binding, Form, LanguageBinding, Origin, Output, Override, Precision, Stage, Tuned, ValueType, output};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -187,6 +188,12 @@ pub enum Error {
     #[error("chain schema {found}, but this reader knows schema {CHAIN_SCHEMA}: generate the chain again")]
     ChainSchema {
         /// The schema that the chain states.
+        found: u32,
+    },
+    /// A source map, made by a generator of another time.
+    #[error("source map schema {found}, but this reader knows schema {SOURCE_MAP_SCHEMA}: generate the shader again")]
+    SourceMapSchema {
+        /// The schema that the map states.
         found: u32,
     },
 }

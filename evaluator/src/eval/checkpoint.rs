@@ -46,7 +46,6 @@ impl Evaluator<'_> {
         self.consts.retain(|_, (made, _)| *made <= before.made.nodes);
         self.facts.counters.retain(|id, _| is_kept(id));
         self.facts.wrapping.retain(is_kept);
-        self.facts.places.truncate(before.made.nodes);
         self.report.drop_errors(before.error_count)
     }
 

@@ -9,7 +9,8 @@ use crate::front::glam::public_fields;
 use crate::front::is_prelude_type;
 use crate::front::name::Name;
 use crate::front::tree::{Expr, ExprKind, IntType};
-use crate::ir::{BinaryOp, NodeId, Op, Scalar, Type};
+use crate::ir::{BinaryOp, NodeId, Op, Place, Scalar, Type};
+use std::sync::Arc;
 
 impl Evaluator<'_> {
     /// Evaluates an expression; for a mutable reference, returns its referent.
@@ -24,7 +25,13 @@ impl Evaluator<'_> {
         let value = self.eval_expr_kind(expr);
         self.report.leave_expr();
         if expr.span.file != Span::LIBRARY {
-            self.facts.places.resize(self.builder.graph().nodes.len(), expr.span);
+            let counters = self.loops.counters();
+            self.builder.place_nodes(|| {
+                Some(Place {
+                    span: expr.span,
+                    counters: Arc::clone(counters),
+                })
+            });
         }
         value
     }

@@ -1,6 +1,6 @@
 //! The graph and its builder.
 
-use super::{Bits, Buffer, Memory, Op, Origin, Scalar, SharedArray, Texture, Type, usize_bits};
+use super::{Bits, Buffer, Memory, Op, Origin, Place, Scalar, SharedArray, Texture, Type, usize_bits};
 use rustc_hash::{FxHashMap, FxHasher};
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -192,6 +192,8 @@ pub struct Graph {
     pub nodes: Vec<Node>,
     /// Origin of each node, by node.
     pub origins: Vec<Option<Origin>>,
+    /// Place of each node in the source, by node; nodes that the source does not have are in none.
+    pub places: Vec<Option<Place>>,
     /// Region in which each node was first created, by node.
     pub homes: Vec<RegionId>,
     /// Region 0 is the body of the kernel.
@@ -262,6 +264,11 @@ impl Graph {
     /// Returns the origin of a node.
     pub fn origin(&self, id: NodeId) -> Option<&Origin> {
         self.origins[id.0 as usize].as_ref()
+    }
+
+    /// Returns the place of a node in the source.
+    pub fn place(&self, id: NodeId) -> Option<&Place> {
+        self.places.get(id.0 as usize)?.as_ref()
     }
 
     /// The kernel's results: for each pixel of the invocation, row by row, a value for each of [`Graph::targets`].
@@ -491,6 +498,7 @@ impl<'r> Builder<'r> {
         }
         self.graph.nodes.truncate(mark.nodes);
         self.graph.origins.truncate(mark.nodes);
+        self.graph.places.truncate(mark.nodes);
         self.graph.homes.truncate(mark.nodes);
         self.graph.regions.truncate(mark.regions);
         self.graph.events.truncate(mark.events);
@@ -547,6 +555,14 @@ impl<'r> Builder<'r> {
         }
     }
 
+    /// Sets the place of all nodes that have been created since the last call.
+    pub fn place_nodes(&mut self, place: impl FnOnce() -> Option<Place>) {
+        let graph = &mut self.graph;
+        if graph.places.len() < graph.nodes.len() {
+            graph.places.resize(graph.nodes.len(), place());
+        }
+    }
+
     /// Opens a region inside the open one, with parameters of the given types.
     pub fn open_region(&mut self, params: &[Type]) -> RegionId {
         let id = RegionId(self.graph.regions.len() as u32);
@@ -594,6 +610,7 @@ impl<'r> Builder<'r> {
 
     /// Closes the body with its results and returns the graph.
     pub fn finish(mut self, outputs: Vec<NodeId>) -> Graph {
+        self.place_nodes(|| None);
         self.close_region(outputs);
         assert!(self.open.is_empty(), "every region that was opened is closed");
         self.graph

@@ -80,6 +80,7 @@ pub fn rebuild_replacing(old: &Graph, pass: &Rebuild<'_>, replace: &mut dyn Repl
         texture.components = components.min(texture.components);
     }
     replace.add_prologue(&mut builder);
+    builder.place_nodes(|| None);
     let mut walk = Rebuilder {
         old,
         live,
@@ -95,6 +96,7 @@ pub fn rebuild_replacing(old: &Graph, pass: &Rebuild<'_>, replace: &mut dyn Repl
             walk.event(*event, replace);
         }
         walk.node(id, pass.share_loads, replace);
+        walk.builder.place_nodes(|| old.place(id).cloned());
     }
     for (_, event) in events {
         if *event != Event::Close(Graph::BODY) {

@@ -115,6 +115,7 @@ impl FloorBuilder<'_> {
         if let Some(origin) = self.old.origin(old) {
             self.builder.set_origin(new, origin);
         }
+        self.builder.place_nodes(|| self.old.place(old).cloned());
     }
 
     /// Returns whether the position of a read is computed as in the kernel.

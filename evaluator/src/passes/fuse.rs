@@ -285,14 +285,15 @@ impl Fuse<'_> {
                     }
                 }
             };
+            let file = |of: u32| self.maps.files.get(of as usize).copied().unwrap_or(of);
+            builder.place_nodes(|| {
+                let mut place = producer.place(id)?.clone();
+                place.span.file = file(place.span.file);
+                Some(place)
+            });
             if let Some(origin) = producer.origin(id) {
                 let mut origin = origin.clone();
-                origin.file = self
-                    .maps
-                    .files
-                    .get(origin.file as usize)
-                    .copied()
-                    .unwrap_or(origin.file);
+                origin.file = file(origin.file);
                 if copy != coordinate {
                     builder.set_origin(copy, &origin);
                 }

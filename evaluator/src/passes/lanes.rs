@@ -136,6 +136,7 @@ impl Expansion<'_> {
             _ => (0..self.lanes).map(|lane| self.in_lane(id, lane)).collect(),
         };
         self.record_lanes(id, new);
+        self.builder.place_nodes(|| self.old.place(id).cloned());
         Ok(())
     }
 

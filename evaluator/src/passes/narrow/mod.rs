@@ -10,7 +10,6 @@ mod extent;
 mod lower;
 mod refuse;
 
-use crate::diagnostic::Span;
 use crate::ir::{Graph, NodeId, Rebuild, rebuild_replacing};
 use analysis::{Analysis, is_wide};
 use std::collections::{HashMap, HashSet};
@@ -24,8 +23,6 @@ pub struct Facts {
     pub counters: HashMap<NodeId, (NodeId, NodeId)>,
     /// Differences that wrap intentionally.
     pub wrapping: HashSet<NodeId>,
-    /// Source location of each node; missing for later nodes.
-    pub places: Vec<Span>,
 }
 
 /// Caps for numbers that are too large to compute with.
@@ -70,7 +67,7 @@ pub fn narrow_usize(graph: &Graph, facts: &Facts) -> Result<Option<Graph>, Vec<R
             let mut first = lower.into_refused();
             first.retain(|id| refused.contains(id));
             let refused = if first.is_empty() { refused } else { first };
-            return Err(refuse::collect_refusals(graph, facts, &refused));
+            return Err(refuse::collect_refusals(graph, &refused));
         }
         caps = next;
     }

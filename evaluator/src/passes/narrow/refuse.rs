@@ -1,6 +1,5 @@
 //! Operations on a `usize` that a shader cannot compute, and what to write instead.
 
-use super::Facts;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, Graph, NodeId, Op, Type};
 use crate::passes::ranges;
@@ -54,11 +53,11 @@ pub fn source_conversions(graph: &Graph, refused: &[NodeId]) -> BTreeSet<NodeId>
 }
 
 /// Errors of rejected operations, one for each location.
-pub fn collect_refusals(graph: &Graph, facts: &Facts, refused: &[NodeId]) -> Vec<Refusal> {
+pub fn collect_refusals(graph: &Graph, refused: &[NodeId]) -> Vec<Refusal> {
     let mut places = HashSet::new();
     let mut found = Vec::new();
     for id in refused {
-        let span = facts.places.get(id.0 as usize).copied().unwrap_or_default();
+        let span = graph.place(*id).map(|place| place.span).unwrap_or_default();
         if places.insert(span) {
             found.push(Refusal {
                 node: *id,
