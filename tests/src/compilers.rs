@@ -249,6 +249,26 @@ pub fn spirv(path: &Path) -> Result<(), String> {
     run("spirv-val", "spirv-tools", &["--target-env", "vulkan1.1"], path)
 }
 
+/// The lines of sources that spirv-cross finds in SPIR-V, with the paths of their files.
+///
+/// # Errors
+///
+/// Its message if it cannot read the module.
+pub fn lines_by_spirv_cross(spirv: &[u8]) -> Result<Vec<(String, u32)>, String> {
+    let folder = Folder::new()?;
+    let (module, text) = (folder.0.join("shader.spv"), folder.0.join("shader.glsl"));
+    std::fs::write(&module, spirv).map_err(|e| e.to_string())?;
+    let output = text.to_string_lossy().into_owned();
+    let arguments = ["--vulkan-semantics", "--emit-line-directives", "--output", &output];
+    run("spirv-cross", "spirv-cross", &arguments, &module)?;
+    let text = std::fs::read_to_string(text).map_err(|e| e.to_string())?;
+    let directive = |line: &str| {
+        let (line, path) = line.trim().strip_prefix("#line ")?.split_once(' ')?;
+        Some((path.trim_matches('"').to_owned(), line.parse().ok()?))
+    };
+    Ok(text.lines().filter_map(directive).collect())
+}
+
 fn run(tool: &str, package: &str, arguments: &[&str], path: &Path) -> Result<(), String> {
     let run = Command::new(tool).args(arguments).arg(path).output();
     let run = run.map_err(|e| format!("cannot run {tool} ({e}): install Debian's {package}"))?;

@@ -4,7 +4,7 @@
 //! names its variables, and [`super::print`] prints it. No stage parses text.
 
 use std::ops::Deref;
-use straightline_evaluator::ir::{self, AtomicOp, BinaryOp, Bits, Memory, Origin, Scalar, Type};
+use straightline_evaluator::ir::{self, AtomicOp, BinaryOp, Bits, Memory, Origin, Place, Scalar, Type};
 
 /// Type of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -330,13 +330,22 @@ impl Expr {
     }
 }
 
-/// A statement with the source location of its value.
+/// Where the value of a statement comes from in the kernel's source.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Source<'g> {
+    /// The variable that holds the value.
+    pub origin: Option<&'g Origin>,
+    /// The expression that computes it.
+    pub place: Option<&'g Place>,
+}
+
+/// A statement with the source of its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stmt<'g> {
     /// Kind of statement, with its operands.
     pub kind: StmtKind<'g>,
-    /// The place in the kernel's source.
-    pub origin: Option<&'g Origin>,
+    /// Source of its value.
+    pub source: Source<'g>,
 }
 
 /// A sequence of statements.
@@ -414,7 +423,10 @@ impl Effect {
 
 impl<'g> From<StmtKind<'g>> for Stmt<'g> {
     fn from(kind: StmtKind<'g>) -> Stmt<'g> {
-        Stmt { kind, origin: None }
+        Stmt {
+            kind,
+            source: Source::default(),
+        }
     }
 }
 

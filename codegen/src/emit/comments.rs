@@ -82,7 +82,7 @@ impl<'g> Groups<'g> {
     }
 
     fn add(&mut self, stmt: Stmt<'g>, out: &mut Block<'g>) {
-        if let Some(origin) = stmt.origin.filter(|o| !o.name.is_empty()) {
+        if let Some(origin) = stmt.source.origin.filter(|o| !o.name.is_empty()) {
             let agrees = origin.counters.iter().all(|c| {
                 let known = self.group.counters.iter().find(|known| known.name == c.name);
                 known.is_none_or(|known| known.value == c.value)
@@ -145,13 +145,17 @@ impl<'g> Groups<'g> {
 
 /// Returns `file:line` of the source, as printed in a shader.
 pub fn source_place(graph: &Graph, file: u32, line: u32) -> String {
-    let path = graph.files.get(file as usize).map_or("", String::as_str);
-    // An absolute path would reveal the author's file system.
-    let shown = match std::path::Path::new(path).is_absolute() {
+    let path = graph.files.get(file as usize).map_or("", |path| shown_path(path));
+    format!("{path}:{line}")
+}
+
+/// Returns a path as printed in a shader: of an absolute one only the file's name, because the rest would reveal the
+/// author's file system.
+pub fn shown_path(path: &str) -> &str {
+    match std::path::Path::new(path).is_absolute() {
         true => path.rsplit(['/', '\\']).next().unwrap_or(path),
         false => path,
-    };
-    format!("{shown}:{line}")
+    }
 }
 
 /// `sample 1, tap 2`.

@@ -130,11 +130,11 @@ impl<'g> Walk<'g> {
     }
 
     fn walk_statement(&mut self, stmt: &Stmt<'g>) {
-        self.record_pressure(self.sum, stmt.origin);
+        self.record_pressure(self.sum, stmt.source.origin);
         match &stmt.kind {
             StmtKind::Let(var, value) => {
                 // A value that is never read still needs a register when it is written.
-                self.record_pressure(self.registers_after_write(*var), stmt.origin);
+                self.record_pressure(self.registers_after_write(*var), stmt.source.origin);
                 self.kill(*var);
                 if self.is_computed(*var) {
                     self.read_expr(value);
@@ -182,7 +182,7 @@ impl<'g> Walk<'g> {
             }
             _ => stmt.own_exprs().for_each(|value| self.read_expr(value)),
         }
-        self.record_pressure(self.sum, stmt.origin);
+        self.record_pressure(self.sum, stmt.source.origin);
     }
 
     fn record_pressure(&mut self, alive: u32, origin: Option<&'g Origin>) {

@@ -29,6 +29,7 @@ mod prose;
 mod refusal;
 mod resources;
 mod shader;
+mod source_map;
 mod spelled;
 mod spirv;
 mod statements;
@@ -38,7 +39,7 @@ mod translate;
 mod variables;
 mod words;
 
-pub use crate::spec::{EmitOptions, Register, Target, Texels};
+pub use crate::spec::{DebugInfo, EmitOptions, Register, Target, Texels};
 
 use crate::compiled::Compiled;
 use refusal::Refusal;
@@ -52,7 +53,7 @@ use straightline_evaluator::ir::Invocation;
 use straightline_evaluator::limits::{self, Meter};
 use straightline_evaluator::policy::Transport;
 use straightline_kernels::HalfPrecision;
-use straightline_manifest::{Counts, Format, Manifest, Precision, Stage, hash_of_bytes, hash_of_text};
+use straightline_manifest::{Counts, Format, Manifest, Precision, SourceMap, Stage, hash_of_bytes, hash_of_text};
 
 pub use bindings::{Axis, ChainModule, Module, Modules, VariantsModule, render_bindings, value_words};
 pub use prose::single_line_comment;
@@ -67,6 +68,8 @@ pub struct Emitted {
     pub manifest: Manifest,
     /// Contents by language.
     pub files: BTreeMap<Target, Vec<u8>>,
+    /// Places of the texts' statements in the kernel's source, if debug information was requested.
+    pub source_map: Option<SourceMap>,
 }
 
 impl Emitted {
@@ -76,7 +79,8 @@ impl Emitted {
         std::str::from_utf8(bytes).unwrap_or_default()
     }
 
-    /// Returns the files by name, and the manifest with these names: `stem.wgsl`, `stem.json`, ...
+    /// Returns the files by name, and the manifest with these names: `stem.wgsl`, `stem.json`, and with
+    /// debug information `stem.map.json`.
     pub fn named_files(&self, stem: &str) -> BTreeMap<String, Vec<u8>> {
         let mut manifest = self.manifest.clone();
         let mut files = BTreeMap::new();
@@ -86,6 +90,9 @@ impl Emitted {
             files.insert(name, bytes.clone());
         }
         files.insert(format!("{stem}.json"), manifest.to_json().into_bytes());
+        if let Some(map) = &self.source_map {
+            files.insert(format!("{stem}.map.json"), map.to_json().into_bytes());
+        }
         files
     }
 }
@@ -264,10 +271,17 @@ fn emit_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, 
     let module = shader.validated_module(&counts, false)?;
     let mut manifest = resources.build_manifest(compiled, &counts)?;
     let mut files = BTreeMap::new();
+    let mut source_map = (options.debug != DebugInfo::None).then(|| source_map::empty_map(compiled));
+    let mut map = |target: Target, text: print::PrintedText<'_>| {
+        if let Some(map) = &mut source_map {
+            source_map::add_text(map, target, &text, compiled);
+        }
+        text.text.into_bytes()
+    };
     for target in &options.targets {
         within_limits(compiled, statements, limits::exceeded_limit(0))?;
         let bytes = match target {
-            Target::Wgsl => shader.print_wgsl(&counts)?.into_bytes(),
+            Target::Wgsl => map(Target::Wgsl, shader.print_wgsl(&counts)?),
             Target::Glsl450 | Target::Glsl430 | Target::Glsl330 | Target::Essl310 | Target::Essl300 => {
                 missing::check_features(compiled, &resources, *target)?;
                 if !options.is_function() {
@@ -275,16 +289,16 @@ fn emit_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, 
                 }
                 let (text, is_validated) = shader.print_glsl(*target, &counts)?;
                 manifest.validated.extend(is_validated.then(|| target.to_string()));
-                text.into_bytes()
+                map(*target, text)
             }
             Target::Spirv => {
                 let words = match tree.has_exact() || !resources.overrides.is_empty() {
-                    true => shader.validated_module(&counts, true)?.to_spirv(&resources)?,
-                    false => module.to_spirv(&resources)?,
+                    true => shader.validated_module(&counts, true)?.to_spirv(&resources, compiled)?,
+                    false => module.to_spirv(&resources, compiled)?,
                 };
                 words.iter().flat_map(|word| word.to_le_bytes()).collect()
             }
-            Target::Hlsl => shader.print_hlsl(&counts)?.into_bytes(),
+            Target::Hlsl => map(Target::Hlsl, shader.print_hlsl(&counts)?),
             Target::Msl if let Some((_, bound)) = resources.overrides.first() => {
                 let what = format!(
                     "`{}` overrides `{}`, and msl has its options as constants",
@@ -327,5 +341,9 @@ fn emit_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, 
         manifest.hashes.insert(target.to_string(), hash);
         files.insert(*target, bytes);
     }
-    Ok(Emitted { manifest, files })
+    Ok(Emitted {
+        manifest,
+        files,
+        source_map,
+    })
 }

@@ -7,6 +7,7 @@ use super::outputs::BoundOutput;
 use super::own_words::{DEFINE, OF_OUTPUT, OUTPUT, OUTPUTS, RESOLUTION, SAMPLER, UNIFORMS};
 use super::places::{Named, Places};
 use super::refusal::Refusal;
+use super::source_map::source_paths;
 use super::words::free_name;
 use crate::compiled::Compiled;
 use crate::spec::Target;
@@ -71,6 +72,8 @@ pub struct Resources {
     pub places: Places,
     /// Options of the emission.
     pub options: EmitOptions,
+    /// Paths of the source's files, by the index that places carry.
+    pub files: Vec<String>,
     /// Every texture of the kernel, used or not, by index.
     pub(super) textures: Vec<Texture>,
     pub(super) buffers: Vec<Buffer>,
@@ -360,6 +363,7 @@ impl Resources {
             outputs,
             places,
             options: options.clone(),
+            files: source_paths(graph),
             textures: graph.textures.clone(),
             buffers: graph.buffers.clone(),
             samplers: graph.samplers.clone(),

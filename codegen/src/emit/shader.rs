@@ -1,11 +1,12 @@
 //! A shader between its tree and its texts: the tree is cloned, legalised, named and printed once per language.
 
+use super::print::PrintedText;
 use super::refusal::Refusal;
 use super::resources::Resources;
 use super::statements::{basic_blocks, count_text};
 use super::{ast, comments, host_reads, legalise, lower, names, print, tidy, translate};
 use crate::compiled::Compiled;
-use crate::spec::Target;
+use crate::spec::{DebugInfo, Target};
 use straightline_manifest::{Counts, Form, Precision};
 
 /// Returns the tree of a kernel's statements, with its outputs at the end.
@@ -37,21 +38,21 @@ pub fn shader_tree<'g>(compiled: &'g Compiled, resources: &Resources) -> (ast::M
 
 /// A shader before printing.
 pub struct Shader<'s, 'g> {
-    pub compiled: &'s Compiled,
+    pub compiled: &'g Compiled,
     pub resources: &'s Resources,
     pub tree: &'s ast::Module<'g>,
-    pub wgsl: Wgsl,
+    pub wgsl: Wgsl<'g>,
 }
 
 /// The WGSL of a shader without its header.
-pub struct Wgsl {
+pub struct Wgsl<'g> {
     /// Bindings under their names in WGSL.
     resources: Resources,
-    text: print::Printed,
+    text: print::Printed<'g>,
 }
 
-impl Wgsl {
-    pub fn new(tree: &ast::Module<'_>, resources: &Resources, marks: bool) -> Result<Wgsl, Refusal> {
+impl<'g> Wgsl<'g> {
+    pub fn new(tree: &ast::Module<'g>, resources: &Resources, marks: bool) -> Result<Wgsl<'g>, Refusal> {
         let resources = resources.spelled_for(Target::Wgsl)?;
         let mut tree = tree.clone();
         legalise::legalise_wgsl(&mut tree, marks);
@@ -61,20 +62,20 @@ impl Wgsl {
     }
 
     /// Returns the whole text.
-    fn with_header(&self, header: &[String]) -> String {
+    fn with_header(&self, header: &[String]) -> PrintedText<'g> {
         let resources = &self.resources;
         self.text.with_header(&print::Wgsl { resources }, header)
     }
 }
 
-impl Shader<'_, '_> {
+impl<'g> Shader<'_, 'g> {
     /// Returns the whole shader, parsed and validated by naga; a function with an entry point that only calls it. With
     /// `marks`, every exact value is marked ([`legalise::legalise_wgsl`]), and overrides are variables with their
     /// defaults.
-    pub fn validated_module(&self, counts: &Counts, marks: bool) -> Result<translate::Module, Refusal> {
+    pub fn validated_module(&self, counts: &Counts, marks: bool) -> Result<translate::Module<'g>, Refusal> {
         let kernel = &self.compiled.kernel;
         if !self.resources.options.is_function() && !marks {
-            return translate::Module::parse_wgsl(kernel, &self.own_wgsl(counts));
+            return translate::Module::parse_wgsl(kernel, self.own_wgsl(counts));
         }
         let whole = self.resources.options.clone().form(Form::Entry);
         let mut whole = Resources::from_compiled(self.compiled, &whole)?;
@@ -82,51 +83,52 @@ impl Shader<'_, '_> {
         // Entry points return whole texels, and functions the kernel's values.
         let (tree, _) = shader_tree(self.compiled, &whole);
         let wgsl = Wgsl::new(&tree, &whole, marks)?.with_header(&print::header_lines(self.compiled, counts, &whole));
-        translate::Module::parse_wgsl(kernel, &wgsl)
+        translate::Module::parse_wgsl(kernel, wgsl)
     }
 
-    fn own_wgsl(&self, counts: &Counts) -> String {
+    fn own_wgsl(&self, counts: &Counts) -> PrintedText<'g> {
         self.wgsl
             .with_header(&print::header_lines(self.compiled, counts, self.resources))
     }
 
-    pub fn print_wgsl(&self, counts: &Counts) -> Result<String, Refusal> {
+    pub fn print_wgsl(&self, counts: &Counts) -> Result<PrintedText<'g>, Refusal> {
         let options = &self.resources.options;
-        let wgsl = self.own_wgsl(counts);
+        let mut wgsl = self.own_wgsl(counts);
         if options.is_function() {
-            let enabled = match self.resources.half {
-                false => wgsl.clone(),
-                true => format!("enable f16;\n{wgsl}"),
-            };
-            let read = enabled + &host_reads::host_stubs(&self.wgsl.resources);
-            translate::Module::parse_wgsl(&self.compiled.kernel, &read)?;
+            let enabled = if self.resources.half { "enable f16;\n" } else { "" };
+            let stubs = host_reads::host_stubs(&self.wgsl.resources);
+            translate::validate_wgsl(&self.compiled.kernel, &format!("{enabled}{}{stubs}", wgsl.text))?;
         }
-        Ok(match options.enable_subgroups && self.resources.subgroups {
-            true => format!("enable subgroups;\n{}{wgsl}", directive_gap(self.resources.half)),
-            false => wgsl,
-        })
+        if options.enable_subgroups && self.resources.subgroups {
+            wgsl.prepend(&format!("enable subgroups;\n{}", directive_gap(self.resources.half)));
+        }
+        Ok(wgsl)
     }
 
     /// Returns the GLSL of a target, and whether naga has validated it.
-    pub fn print_glsl(&self, target: Target, counts: &Counts) -> Result<(String, bool), Refusal> {
+    pub fn print_glsl(&self, target: Target, counts: &Counts) -> Result<(PrintedText<'g>, bool), Refusal> {
         let resources = &self.resources.spelled_for(target)?;
         let mut tree = self.tree.clone();
         // Hosts compile functions together with their own text, in a version of their choice.
         let precise = matches!(target, Target::Glsl450 | Target::Glsl430) && !resources.options.is_function();
         legalise::legalise_glsl(&mut tree, resources, target == Target::Glsl450, precise);
         finish_tree(&mut tree, resources, target)?;
-        let header = print::header_lines(self.compiled, counts, self.resources);
+        let mut header = print::header_lines(self.compiled, counts, self.resources);
+        if resources.options.debug == DebugInfo::Lines {
+            let files = resources.files.iter().enumerate();
+            header.extend(files.map(|(k, path)| format!("Lines of string {k} are those of {path}.")));
+        }
         let printer = print::Glsl::new(resources, target);
         let glsl = print::print_module(&printer, &tree, &header);
         // naga parses no other version of GLSL.
         let is_read = target == Target::Glsl450 && printer.unread_constructs(&tree).is_empty();
         if is_read {
-            translate::validate_glsl(&self.compiled.kernel, resources.options.stage, &glsl)?;
+            translate::validate_glsl(&self.compiled.kernel, resources.options.stage, &glsl.text)?;
         }
         Ok((glsl, is_read))
     }
 
-    pub fn print_hlsl(&self, counts: &Counts) -> Result<String, Refusal> {
+    pub fn print_hlsl(&self, counts: &Counts) -> Result<PrintedText<'g>, Refusal> {
         let mut tree = self.tree.clone();
         legalise::legalise_hlsl(&mut tree, self.resources);
         let resources = self.resources.spelled_for(Target::Hlsl)?;

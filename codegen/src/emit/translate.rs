@@ -1,10 +1,14 @@
 //! Validation by naga, and its output languages.
 
+use super::comments::shown_path;
 use super::derived::Derived;
+use super::print::PrintedText;
 use super::refusal::Refusal;
 use super::resources::Resources;
-use super::spirv::SpecConstant;
-use crate::spec::Target;
+use super::source_map::file_text;
+use super::spirv::{SourceFile, SpecConstant};
+use crate::compiled::Compiled;
+use crate::spec::{DebugInfo, Target};
 use naga::back::{msl, spv};
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -19,20 +23,21 @@ pub fn time_to_parse(statements: u32) -> Duration {
 }
 
 /// A validated module.
-pub struct Module {
+pub struct Module<'g> {
     kernel: String,
+    /// The WGSL that it was parsed from.
+    wgsl: PrintedText<'g>,
     module: naga::Module,
     info: ModuleInfo,
 }
 
-impl Module {
+impl<'g> Module<'g> {
     /// Parses and validates WGSL.
-    pub fn parse_wgsl(kernel: &str, text: &str) -> Result<Module, Refusal> {
-        let invalid = |message: String| Refusal::invalid_text(kernel, "wgsl", &message);
-        let module = naga::front::wgsl::parse_str(text).map_err(|error| invalid(error.emit_to_string(text)))?;
-        let info = validate_module(&module, text).map_err(invalid)?;
+    pub fn parse_wgsl(kernel: &str, wgsl: PrintedText<'g>) -> Result<Module<'g>, Refusal> {
+        let (module, info) = validate_wgsl(kernel, &wgsl.text)?;
         Ok(Module {
             kernel: kernel.to_owned(),
+            wgsl,
             module,
             info,
         })
@@ -52,8 +57,14 @@ impl Module {
     }
 
     /// SPIR-V 1.3.
-    pub fn to_spirv(&self, resources: &Resources) -> Result<Vec<u32>, Refusal> {
+    pub fn to_spirv(&self, resources: &Resources, compiled: &Compiled) -> Result<Vec<u32>, Refusal> {
+        let has_lines = resources.options.debug == DebugInfo::Lines;
         let options = spv::Options {
+            debug_info: has_lines.then_some(spv::DebugInfo {
+                source_code: &self.wgsl.text,
+                file_name: "",
+                language: naga::back::spv::SourceLanguage::Unknown,
+            }),
             lang_version: (1, 3),
             flags: spv::WriterFlags::DEBUG,
             force_loop_bounding: !resources.options.unbounded_loops,
@@ -70,6 +81,17 @@ impl Module {
         };
         let words = spv::write_vec(&self.module, &self.info, &options, Some(&pipeline))
             .map_err(|e| self.translation_error("spirv", e))?;
+        let words = match has_lines {
+            true => super::spirv::set_source_lines(&words, &self.wgsl.statements, |file| SourceFile {
+                path: compiled
+                    .graph
+                    .files
+                    .get(file as usize)
+                    .map_or("", |path| shown_path(path)),
+                text: file_text(compiled, file).unwrap_or_default(),
+            }),
+            false => words,
+        };
         let words = super::spirv::join_blocks(&super::spirv::forbid_contraction(&words));
         let words = super::spirv::inline_functions(&words);
         let named = resources.spelled_for(Target::Wgsl)?;
@@ -190,6 +212,14 @@ fn bounds_checks(resources: &Resources) -> BoundsCheckPolicies {
         },
         ..BoundsCheckPolicies::default()
     }
+}
+
+/// Parses and validates WGSL.
+pub fn validate_wgsl(kernel: &str, text: &str) -> Result<(naga::Module, ModuleInfo), Refusal> {
+    let invalid = |message: String| Refusal::invalid_text(kernel, "wgsl", &message);
+    let module = naga::front::wgsl::parse_str(text).map_err(|error| invalid(error.emit_to_string(text)))?;
+    let info = validate_module(&module, text).map_err(invalid)?;
+    Ok((module, info))
 }
 
 /// Parses and validates GLSL 4.50.

@@ -3,7 +3,7 @@
 
 use super::declare::knobs;
 use super::value::KnobValue;
-use super::{KernelConfig, Knob, Part, Register, ShaderSpec, Target, Texels};
+use super::{DebugInfo, KernelConfig, Knob, Part, Register, ShaderSpec, Target, Texels};
 use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::time::Duration;
@@ -187,6 +187,12 @@ knobs! {
         strip_comments: bool = false, "strip-comments",
             strip_comments(strip: bool) |stripped| *stripped = strip,
             example (true);
+        /// Debug information: `map` also writes NAME.map.json, which has the place of every statement in the kernel's
+        /// source. `lines` puts these lines into the shader as well, for debuggers: `OpLine` in SPIR-V, `#line` in GLSL
+        /// and HLSL.
+        debug: DebugInfo = DebugInfo::None, "debug" ["WHAT"],
+            debug(debug: DebugInfo) |chosen| *chosen = debug,
+            example (DebugInfo::Lines);
         /// Languages whose reserved words are avoided as well, separated by commas, so that a host can use the same name in
         /// several languages.
         clear_of: BTreeSet<Target> = BTreeSet::new(), "clear-of" ["LANGUAGES"],

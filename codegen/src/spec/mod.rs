@@ -15,6 +15,7 @@
 //! # Ok::<(), straightline_codegen::diagnostic::Errors>(())
 //! ```
 
+mod debug_info;
 mod declare;
 mod kernel_config;
 mod knobs;
@@ -25,6 +26,7 @@ mod texels;
 mod value;
 mod variants;
 
+pub use debug_info::DebugInfo;
 pub use kernel_config::KernelConfig;
 pub(crate) use kernel_config::Source;
 pub use knobs::{EmitOptions, KNOBS, Settings};

@@ -21,6 +21,7 @@ mod one_mistake;
 mod option_values;
 mod overrides;
 mod places;
+mod source_map;
 mod syn_variants;
 mod testing;
 mod validated;

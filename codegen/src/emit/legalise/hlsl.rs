@@ -31,7 +31,7 @@ fn chosen_before<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
         for inner in stmt.blocks_mut() {
             *inner = chosen_before(module, std::mem::take(inner));
         }
-        let origin = stmt.origin;
+        let source = stmt.source;
         for expr in stmt.own_mut() {
             *expr = expr.clone().rewrite(&mut |mut expr| {
                 if matches!(expr.op, Op::Ir(ir::Op::Select) | Op::Choose) {
@@ -40,7 +40,7 @@ fn chosen_before<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
                             let var = module.new_variable(name, side.ty);
                             let value = std::mem::replace(side, module.read_variable(var));
                             let kind = StmtKind::Let(var, value);
-                            out.push(Stmt { kind, origin });
+                            out.push(Stmt { kind, source });
                         }
                     }
                 }
@@ -164,7 +164,7 @@ fn by_element<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
                     ] {
                         out.push(Stmt {
                             kind,
-                            origin: stmt.origin,
+                            source: stmt.source,
                         });
                     }
                     continue;
@@ -174,7 +174,7 @@ fn by_element<'g>(module: &mut Module<'g>, block: Block<'g>) -> Block<'g> {
                     let element = Expr::new(Op::Index { inside: true }, vec![place.clone(), index], part.ty);
                     out.push(Stmt {
                         kind: StmtKind::Assign(element, None, part),
-                        origin: stmt.origin,
+                        source: stmt.source,
                     });
                 }
             }

@@ -1,7 +1,7 @@
 //! Lowering of structured loops and branches.
 
 use super::Lowering;
-use crate::emit::ast::{Expr, StmtKind, VarId};
+use crate::emit::ast::{Expr, Stmt, StmtKind, VarId};
 use straightline_evaluator::ir::{self, Bits, Graph, NodeId, Region};
 use straightline_evaluator::passes::Block;
 
@@ -34,7 +34,7 @@ impl<'g> Lowering<'g> {
         let counted = self.compiled.schedule.uses[region.params[0].0 as usize] > 0
             || region.stop.is_none()
             || graph.constant_bits(args[1]) != Some(ENDLESS);
-        let stmt = match counted {
+        let kind = match counted {
             true => StmtKind::For {
                 counter,
                 start,
@@ -43,7 +43,8 @@ impl<'g> Lowering<'g> {
             },
             false => StmtKind::Loop(body),
         };
-        self.block.push(stmt.into());
+        let source = self.place_of(node);
+        self.block.push(Stmt { kind, source });
         self.coalescing.restore_scope(&scope);
         self.bind_results(node, &region.params[1..]);
     }
@@ -159,14 +160,13 @@ impl<'g> Lowering<'g> {
                 }
             }
         });
-        self.block.push(
-            StmtKind::If {
-                condition,
-                then,
-                otherwise,
-            }
-            .into(),
-        );
+        let kind = StmtKind::If {
+            condition,
+            then,
+            otherwise,
+        };
+        let source = self.place_of(node);
+        self.block.push(Stmt { kind, source });
         self.coalescing.restore_scope(&scope);
     }
 

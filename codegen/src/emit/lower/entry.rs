@@ -263,7 +263,7 @@ fn stored_from_below(block: &mut Block<'_>) {
 }
 
 /// Stores the outputs of a block's pixels; all but the first may lie outside.
-fn store_outputs(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources) {
+fn store_outputs<'g>(body: &mut Block<'g>, outputs: Block<'g>, resources: &Resources) {
     let (within, bound) = match resources.options.region {
         true => (VarId::WITHIN, builtin_expr(Builtin::RegionSize)),
         false => (VarId::PIXEL, local_variable(VarId::FRAME)),
@@ -275,14 +275,17 @@ fn store_outputs(body: &mut Block<'_>, outputs: Block<'_>, resources: &Resources
     let down = if resources.options.counts_from_below() { -1 } else { 1 };
     let width = resources.block[0] as usize;
     let pixels = outputs.into_iter().filter_map(|stmt| match stmt.kind {
-        StmtKind::Output(values) => Some(values),
+        StmtKind::Output(values) => Some((values, stmt.source)),
         _ => None,
     });
-    for (k, values) in pixels.enumerate() {
-        let stored = |there: &Expr| -> Block<'_> {
+    for (k, (values, source)) in pixels.enumerate() {
+        let stored = |there: &Expr| -> Block<'g> {
             let stores = values.iter().enumerate();
             stores
-                .map(|(output, value)| StmtKind::Store(output, there.clone(), value.clone()).into())
+                .map(|(output, value)| Stmt {
+                    kind: StmtKind::Store(output, there.clone(), value.clone()),
+                    source,
+                })
                 .collect()
         };
         if resources.group.is_some() {

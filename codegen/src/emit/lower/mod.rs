@@ -11,7 +11,7 @@ mod facts;
 mod halves;
 mod interference;
 
-use super::ast::{Block as Statements, Effect, Expr, Module, Op, Stmt, StmtKind, Ty, VarId};
+use super::ast::{Block as Statements, Effect, Expr, Module, Op, Source, Stmt, StmtKind, Ty, VarId};
 use super::names::Wanted;
 use super::outputs::whole_texel;
 use super::tidy::simplify_expr;
@@ -49,7 +49,14 @@ pub fn lower_kernel<'g>(compiled: &'g Compiled, half: bool) -> Module<'g> {
     lowering.steps(&compiled.schedule.body);
     for pixel in graph.outputs().chunks(graph.targets.len().max(1)) {
         let values = pixel.iter().map(|output| lowering.node_expr(*output)).collect();
-        lowering.block.push(StmtKind::Output(values).into());
+        let source = pixel
+            .first()
+            .map(|output| lowering.place_of(*output))
+            .unwrap_or_default();
+        lowering.block.push(Stmt {
+            kind: StmtKind::Output(values),
+            source,
+        });
     }
     lowering.module.body = lowering.block;
     lowering.module
@@ -248,10 +255,21 @@ impl<'g> Lowering<'g> {
         self.exprs[id.0 as usize] = Some(self.module.read_variable(var));
     }
 
-    /// Emits a statement with a node's origin.
+    /// Emits a statement with a node's source.
     fn emit_statement(&mut self, id: NodeId, kind: StmtKind<'g>) {
-        let origin = self.origins[id.0 as usize];
-        self.block.push(Stmt { kind, origin });
+        let source = Source {
+            origin: self.origins[id.0 as usize],
+            ..self.place_of(id)
+        };
+        self.block.push(Stmt { kind, source });
+    }
+
+    /// Returns the place of a node, as the source of a statement without a name.
+    fn place_of(&self, id: NodeId) -> Source<'g> {
+        Source {
+            origin: None,
+            place: self.compiled.graph.place(id),
+        }
     }
 
     /// Returns the expression of a node that has been evaluated, in full precision.

@@ -6,16 +6,16 @@ use super::expr::{float_literal, integer_literal, unsigned_literal};
 use super::overrides::PrintOverrides;
 use super::wgsl::pad_texel;
 use super::{Language, Text, header_comment};
-use crate::emit::Target;
 use crate::emit::ast::{Builtin, Effect, Module, Ty};
 use crate::emit::derived::Derived;
 use crate::emit::host_reads;
 use crate::emit::own_words::{SAMPLER, UNIFORMS};
 use crate::emit::resources::Resources;
+use crate::emit::{DebugInfo, Target};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use straightline_evaluator::ir::{
-    self, Access, AtomicOp, Axis, BinaryOp, Element, Memory, QuadDirection, Scalar, TextureKind, Type, UnaryOp,
+    self, Access, AtomicOp, Axis, BinaryOp, Element, Memory, QuadDirection, Scalar, Span, TextureKind, Type, UnaryOp,
 };
 use straightline_manifest::{REGION, Stage};
 
@@ -556,6 +556,12 @@ impl Language for Glsl<'_> {
             out += &format!("shared {element} {}[{}];\n", shared.name, shared.len);
         }
         out
+    }
+
+    fn line_directive(&self, span: &Span) -> Option<String> {
+        let lines = self.resources.options.debug == DebugInfo::Lines;
+        // GLSL names files by numbers.
+        lines.then(|| format!("#line {} {}", span.line, span.file))
     }
 
     fn entry_head(&self) -> String {

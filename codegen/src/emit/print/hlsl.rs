@@ -5,13 +5,14 @@ mod declarations;
 use super::expr::{float_literal, integer_literal, unsigned_literal};
 use super::overrides::PrintOverrides;
 use super::{Language, Text, header_comment};
+use crate::emit::DebugInfo;
 use crate::emit::ast::{Builtin, Effect, Expr, Module, Op, Ty};
 use crate::emit::derived::Derived;
 use crate::emit::host_reads;
 use crate::emit::own_words::{UNIFORMS, VARIABLE};
 use crate::emit::resources::Resources;
 use declarations::{structure_declarations, uniform_members};
-use straightline_evaluator::ir::{self, AtomicOp, Axis, BinaryOp, QuadDirection, Scalar, TextureKind, UnaryOp};
+use straightline_evaluator::ir::{self, AtomicOp, Axis, BinaryOp, QuadDirection, Scalar, Span, TextureKind, UnaryOp};
 use straightline_manifest::{Format, REGION, Stage};
 
 pub use declarations::{buffer_declared, sampler_declared, texture_declared, type_name, variable_declared};
@@ -472,6 +473,13 @@ impl Language for Hlsl<'_> {
             out += &format!("\n{}", self.outputs_structure());
         }
         out
+    }
+
+    fn line_directive(&self, span: &Span) -> Option<String> {
+        let lines = self.resources.options.debug == DebugInfo::Lines;
+        let path = self.resources.files.get(span.file as usize)?;
+        let escaped = path.replace('\\', "\\\\").replace('"', "\\\"");
+        lines.then(|| format!("#line {} \"{escaped}\"", span.line))
     }
 
     fn entry_head(&self) -> String {

@@ -5,18 +5,21 @@ mod function;
 mod glsl;
 mod header;
 mod hlsl;
+mod lines;
 mod opengl;
 mod overrides;
 mod vulkan;
 mod wgsl;
 
-use super::ast::{Builtin, Effect, Expr, Function, Module, Op, Stmt, StmtKind, Ty, VarId};
+use super::ast::{Builtin, Effect, Expr, Function, Module, Op, Source, Stmt, StmtKind, Ty, VarId};
 use super::text::{Binds, Text, wrapped_comment};
-use straightline_evaluator::ir::{self, Scalar, UnaryOp};
+use lines::{Lines, line_count};
+use straightline_evaluator::ir::{self, Scalar, Span, UnaryOp};
 
 pub use glsl::{Glsl, LOOSE_REGION};
 pub use header::{GENERATOR, header_lines};
 pub use hlsl::Hlsl;
+pub use lines::PrintedStatement;
 pub use wgsl::Wgsl;
 
 /// Returns a type in GLSL's spelling.
@@ -117,6 +120,11 @@ pub trait Language {
     fn preamble(&self, header: &[String]) -> String;
     /// The head of the entry point or function, up to the opening brace.
     fn entry_head(&self) -> String;
+    /// Directive before a statement that comes from a place in the source, if debug information was requested and the
+    /// language has it.
+    fn line_directive(&self, _: &Span) -> Option<String> {
+        None
+    }
     /// Text after a function that comes first.
     fn trailing_text(&self) -> Option<String> {
         None
@@ -129,41 +137,73 @@ pub trait Language {
 }
 
 /// Prints a module in a language, under a header.
-pub fn print_module(language: &dyn Language, module: &Module<'_>, header: &[String]) -> String {
+pub fn print_module<'g>(language: &dyn Language, module: &Module<'g>, header: &[String]) -> PrintedText<'g> {
     Printed::new(language, module).with_header(language, header)
 }
 
+/// A text with the sources of its statements.
+pub struct PrintedText<'g> {
+    /// The text.
+    pub text: String,
+    /// Statements of the entry point that have a source, in order.
+    pub statements: Vec<PrintedStatement<'g>>,
+}
+
+impl PrintedText<'_> {
+    /// Puts lines in front of the text.
+    pub fn prepend(&mut self, lines: &str) {
+        self.text.insert_str(0, lines);
+        let count = line_count(lines);
+        self.statements
+            .iter_mut()
+            .for_each(|statement| statement.move_down(count));
+    }
+}
+
 /// A module as text, without its header.
-pub struct Printed {
+pub struct Printed<'g> {
     /// The constants, and each function except the entry point.
     beside: Vec<String>,
     /// The entry point's statements.
-    body: String,
+    body: Lines<'g>,
 }
 
-impl Printed {
+impl<'g> Printed<'g> {
     /// Prints a module in a language.
-    pub fn new(language: &dyn Language, module: &Module<'_>) -> Printed {
+    pub fn new(language: &dyn Language, module: &Module<'g>) -> Printed<'g> {
         let printer = Printer { language, module };
+        let mut body = Lines::default();
+        printer.print_block(&module.body, 1, &mut body);
         Printed {
             beside: printer.tables_and_functions(),
-            body: printer.print_block(&module.body, 1),
+            body,
         }
     }
 
     /// Returns the whole text under a header, in the same language.
-    pub fn with_header(&self, language: &dyn Language, header: &[String]) -> String {
-        let entry = |header: &str| format!("{}\n{header}{}}}\n", language.entry_head(), self.body);
+    pub fn with_header(&self, language: &dyn Language, header: &[String]) -> PrintedText<'g> {
         let mut parts = self.beside.clone();
-        if language.function_leads() {
-            let header: String = header.iter().map(|line| wrapped_comment(line, 4) + "\n").collect();
-            parts.insert(0, entry(&(header + "\n")));
-            parts.extend(language.trailing_text());
-        } else {
-            parts.insert(0, language.preamble(header));
-            parts.push(entry(""));
-        }
-        parts.join("\n")
+        let head = language.entry_head() + "\n";
+        let (before, head, behind) = match language.function_leads() {
+            true => {
+                let header: String = header.iter().map(|line| wrapped_comment(line, 4) + "\n").collect();
+                parts.extend(language.trailing_text());
+                (Vec::new(), format!("{head}{header}\n"), parts)
+            }
+            false => {
+                parts.insert(0, language.preamble(header));
+                (parts, head, Vec::new())
+            }
+        };
+        let mut text: String = before.iter().map(|part| format!("{part}\n")).collect();
+        text += &head;
+        let first = line_count(&text);
+        text += &self.body.text;
+        text += "}\n";
+        behind.iter().for_each(|part| text += &format!("\n{part}"));
+        let mut statements = self.body.statements.clone();
+        statements.iter_mut().for_each(|statement| statement.move_down(first));
+        PrintedText { text, statements }
     }
 }
 
@@ -173,12 +213,12 @@ pub fn header_comment(header: &[String]) -> String {
 }
 
 /// Printer of a module's trees.
-struct Printer<'m> {
+struct Printer<'m, 'g> {
     language: &'m dyn Language,
-    module: &'m Module<'m>,
+    module: &'m Module<'g>,
 }
 
-impl Printer<'_> {
+impl<'g> Printer<'_, 'g> {
     fn variable_name(&self, var: VarId) -> &str {
         &self.module.variables[var.0 as usize].name
     }
@@ -228,11 +268,12 @@ impl Printer<'_> {
             "" => String::new(),
             text => format!("// {text}\n"),
         };
-        format!("{comment}{head}\n{}}}", self.print_block(&function.body, 1))
+        let mut body = Lines::default();
+        self.print_block(&function.body, 1, &mut body);
+        format!("{comment}{head}\n{}}}", body.text)
     }
 
-    fn print_block(&self, block: &[Stmt<'_>], depth: usize) -> String {
-        let mut out = String::new();
+    fn print_block(&self, block: &[Stmt<'g>], depth: usize, out: &mut Lines<'g>) {
         let mut rest = block;
         while let [stmt, behind @ ..] = rest {
             rest = behind;
@@ -250,13 +291,21 @@ impl Printer<'_> {
                         .language
                         .let_head(self.variable_name(*var), self.module.variable_type(*var)),
                 };
-                out += &(self.print_effect(effect, Some(&declared), depth) + "\n");
+                let text = self.print_effect(effect, Some(&declared), depth);
+                self.push(out, &text, next.source, self.variable_name(*var));
                 rest = after;
                 continue;
             }
-            out += &self.print_statement(stmt, depth);
+            self.print_statement(stmt, depth, out);
         }
-        out
+    }
+
+    /// Adds a statement, with the directive of its line.
+    fn push(&self, out: &mut Lines<'g>, text: &str, source: Source<'g>, name: &str) {
+        if let Some(directive) = source.place.and_then(|place| self.language.line_directive(&place.span)) {
+            out.push(&directive, Source::default(), "");
+        }
+        out.push(text, source, name);
     }
 
     /// Prints a write to memory; `before` receives the old value.
@@ -273,7 +322,7 @@ impl Printer<'_> {
         format!("{}{before}{value}{behind}", " ".repeat(indent))
     }
 
-    fn print_statement(&self, stmt: &Stmt<'_>, depth: usize) -> String {
+    fn print_statement(&self, stmt: &Stmt<'g>, depth: usize, out: &mut Lines<'g>) {
         let indent = "    ".repeat(depth);
         let l = self.language;
         let set = |before: &str, value: &Expr| Self::line(depth, &format!("{before} = "), &self.print_expr(value), ";");
@@ -338,7 +387,9 @@ impl Printer<'_> {
                 let name = self.variable_name(*counter);
                 let bound = Text::infix(&Text::name(name), "<", &self.print_expr(end), Binds::Comparison);
                 let head = l.loop_head(name, start.ty, &self.print_expr(start).code, &bound.code);
-                format!("{indent}{head}\n{}{indent}}}", self.print_block(body, depth + 1))
+                self.push(out, &format!("{indent}{head}"), stmt.source, "");
+                self.print_block(body, depth + 1, out);
+                format!("{indent}}}")
             }
             StmtKind::Loop(body) => {
                 let [before, behind] = l.if_head();
@@ -349,7 +400,9 @@ impl Printer<'_> {
                     }
                     _ => (format!("{indent}{}", l.endless_head()), &body[..]),
                 };
-                format!("{head}\n{}{indent}}}", self.print_block(body, depth + 1))
+                self.push(out, &head, stmt.source, "");
+                self.print_block(body, depth + 1, out);
+                format!("{indent}}}")
             }
             StmtKind::Break => format!("{indent}break;"),
             StmtKind::If {
@@ -359,7 +412,8 @@ impl Printer<'_> {
             } => {
                 let [before, behind] = l.if_head();
                 let head = Self::line(depth, before, &self.print_expr(condition), behind);
-                let mut text = format!("{head}\n{}", self.print_block(then, depth + 1));
+                self.push(out, &head, stmt.source, "");
+                self.print_block(then, depth + 1, out);
                 let mut last = otherwise;
                 while let [
                     Stmt {
@@ -369,22 +423,31 @@ impl Printer<'_> {
                                 then,
                                 otherwise,
                             },
-                        ..
+                        source,
                     },
                 ] = last.as_slice()
                 {
                     let before = format!("}} else {before}");
                     let head = Self::line(depth, &before, &self.print_expr(condition), behind);
-                    text += &format!("{head}\n{}", self.print_block(then, depth + 1));
+                    self.push(out, &head, *source, "");
+                    self.print_block(then, depth + 1, out);
                     last = otherwise;
                 }
                 if !last.is_empty() {
-                    text += &format!("{indent}}} else {{\n{}", self.print_block(last, depth + 1));
+                    out.push(&format!("{indent}}} else {{"), Source::default(), "");
+                    self.print_block(last, depth + 1, out);
                 }
-                format!("{text}{indent}}}")
+                format!("{indent}}}")
             }
         };
-        text + "\n"
+        let (source, name) = match &stmt.kind {
+            StmtKind::Let(var, _) | StmtKind::Var(var, _) => (stmt.source, self.variable_name(*var)),
+            StmtKind::Assign(place, ..) => (stmt.source, place.as_var().map_or("", |var| self.variable_name(var))),
+            // The closing brace.
+            StmtKind::For { .. } | StmtKind::Loop(_) | StmtKind::If { .. } => (Source::default(), ""),
+            _ => (stmt.source, ""),
+        };
+        self.push(out, &text, source, name);
     }
 
     /// Prints the elements of an array in its declaration.

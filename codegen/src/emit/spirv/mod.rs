@@ -1,11 +1,13 @@
-//! SPIR-V as words: straight-line functions are inlined, consecutive blocks joined, exact operations decorated, and
-//! overrides made specialization constants.
+//! SPIR-V as words: straight-line functions are inlined, consecutive blocks joined, exact operations decorated,
+//! overrides made specialization constants, and lines those of the kernel's source.
 
 mod inline;
+mod lines;
 mod spec_constants;
 mod uncontracted;
 
 pub use inline::inline_functions;
+pub use lines::{SourceFile, set_source_lines};
 pub use spec_constants::{SpecConstant, add_spec_constants};
 pub use uncontracted::forbid_contraction;
 

@@ -92,7 +92,7 @@ fn defines_constant(instruction: &[u32], id: u32) -> bool {
 }
 
 /// Encodes a literal string, which ends in at least one zero byte.
-fn literal_words(text: &str) -> Vec<u32> {
+pub(super) fn literal_words(text: &str) -> Vec<u32> {
     let mut bytes = text.as_bytes().to_vec();
     bytes.resize((text.len() / 4 + 1) * 4, 0);
     let words = bytes.chunks_exact(4);

@@ -72,7 +72,7 @@ fn sink_break(block: &mut Block<'_>) {
             mut then,
             mut otherwise,
         },
-        origin,
+        source,
     }) = block.pop()
     else {
         return;
@@ -107,7 +107,7 @@ fn sink_break(block: &mut Block<'_>) {
         then,
         otherwise,
     };
-    block.push(Stmt { kind, origin });
+    block.push(Stmt { kind, source });
     block.extend(rest);
 }
 

@@ -178,13 +178,13 @@ impl Inliner<'_> {
             };
             let Some(Stmt {
                 kind: StmtKind::Let(_, value),
-                origin,
+                source,
             }) = out[at].take()
             else {
                 return;
             };
-            if stmt.origin.is_none() && !matches!(stmt.kind, StmtKind::For { .. } | StmtKind::If { .. }) {
-                stmt.origin = origin;
+            if stmt.source.origin.is_none() && !matches!(stmt.kind, StmtKind::For { .. } | StmtKind::If { .. }) {
+                stmt.source.origin = source.origin;
             }
             let mut reads: FxHashMap<VarId, i32> = FxHashMap::default();
             let mut note = |var, times| *reads.entry(var).or_default() += times;
