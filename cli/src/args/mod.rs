@@ -2,6 +2,7 @@
 
 #[cfg(any(test, not(feature = "study")))]
 mod absent;
+mod at;
 mod capture;
 mod chain;
 mod check;
@@ -20,6 +21,7 @@ use clap::{Args, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use glam::UVec2;
 use std::path::PathBuf;
+use straightline_codegen::emit::DebugInfo;
 use straightline_codegen::{Precision, ShaderSpec, shorten};
 
 #[cfg(not(feature = "study"))]
@@ -29,6 +31,7 @@ use absent::{
     AbsentArgs as BudgetArgs, AbsentArgs as CompilersArgs, AbsentArgs as FiguresArgs, AbsentArgs as QuadsArgs,
     AbsentArgs as StudyArgs, AbsentArgs as TuneArgs,
 };
+pub use at::At;
 pub use capture::{CaptureArgs, CompareArgs, PlacedByArg, ResolveArgs, ViewArgs};
 pub use chain::ChainArgs;
 pub use check::{CheckArgs, MessageFormat};
@@ -130,6 +133,9 @@ pub struct EmitArgs {
     pub writing: WritingArgs,
     #[command(flatten)]
     pub chain: ChainArgs,
+    /// Same as `--debug lines`
+    #[arg(short = 'g', conflicts_with_all = ["debug", "engine"])]
+    pub lines: bool,
     /// Write the files for an engine: NAME (see `list`), or a folder with an `engine.toml`, which sets language, form and
     /// origin
     #[arg(long, value_name = "NAME|FOLDER", conflicts_with_all = straightline_engines::FIXED)]
@@ -154,7 +160,11 @@ fn parse_bind(text: &str) -> Result<(String, String), String> {
 impl EmitArgs {
     /// Returns the description of the shader.
     pub fn shader_spec(&self) -> ShaderSpec {
-        self.kernel.options.shader_spec(&self.writing)
+        let spec = self.kernel.options.shader_spec(&self.writing);
+        match self.lines {
+            true => spec.debug(DebugInfo::Lines),
+            false => spec,
+        }
     }
 }
 
@@ -180,6 +190,11 @@ pub struct ExplainArgs {
     /// Also draw the texels that an invocation reads, with weights and messages, to this SVG file
     #[arg(long, value_name = "FILE.svg", value_hint = ValueHint::FilePath)]
     pub draw: Option<PathBuf>,
+    /// Print only where a line of the shader comes from, such as 42 (of the WGSL) or hlsl:42, or which of its lines come
+    /// from a line of the source, such as blur.rs:12. The shader is the one that `emit` writes without other settings of
+    /// its text; for any other, give the NAME.map.json that `emit --debug map` writes instead of the kernel
+    #[arg(long, value_name = "LINE", conflicts_with_all = ["draw", "isa", "dump"])]
+    pub at: Option<At>,
 }
 
 #[derive(Debug, Args)]

@@ -1,5 +1,6 @@
 //! `explain`: operation counts of a kernel, per pixel.
 
+use super::at::explain_at;
 use super::chain::explain_chain;
 use super::footprint::{footprint_json, write_drawing};
 use super::machine;
@@ -28,6 +29,10 @@ pub fn explain_kernel(args: &ExplainArgs) -> Result<(), Failure> {
         }
         explain_code(code, args.json);
         return Ok(());
+    }
+    if let Some(at) = &args.at {
+        args.chain.refuse(&args.kernel.kernel)?;
+        return explain_at(args, at);
     }
     if let Some(chain) = args.kernel.locate_chain()? {
         return explain_chain(args, &chain);

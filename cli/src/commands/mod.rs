@@ -1,6 +1,7 @@
 //! Commands, one module for each. Commands that measure kernels and scenes need the feature `study`.
 
 pub mod adapters;
+mod at;
 #[cfg(feature = "study")]
 pub mod budget;
 pub mod capture;

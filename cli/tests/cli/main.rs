@@ -1,6 +1,7 @@
 //! The command, as a user runs it.
 
 mod all;
+mod at;
 mod budget;
 mod captions;
 mod capture;
