@@ -126,7 +126,7 @@ impl Numbers {
 }
 
 /// Knobs that an engine determines, by name: a user's values for them would be ignored.
-pub const FIXED: [&str; 15] = [
+pub const FIXED: [&str; 16] = [
     "stage",
     "target",
     "region",
@@ -142,6 +142,7 @@ pub const FIXED: [&str; 15] = [
     "global-uniforms",
     "reserve",
     "clear-of",
+    "debug",
 ];
 
 impl Description {
