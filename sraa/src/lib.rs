@@ -205,7 +205,7 @@ impl Sraa {
     /// Records the decision where each pixel is shaded, after the geometry and before shading: with [`Preset::Full`] and
     /// [`Preset::Guided`]; otherwise nothing.
     pub fn encode_placing(&self, encoder: &mut CommandEncoder) {
-        self.before_shading().iter().for_each(|bound| bound.encode(encoder));
+        encode_group("SRAA placing", self.before_shading(), encoder);
     }
 
     /// Place of each pixel's shading, an unsigned integer: the index of a sample in [`Samples::offsets`], or their number for the
@@ -230,7 +230,7 @@ impl Sraa {
 
     /// Records the filter, after shading.
     pub fn encode(&self, encoder: &mut CommandEncoder) {
-        self.after_shading().iter().for_each(|bound| bound.encode(encoder));
+        encode_group("SRAA", self.after_shading(), encoder);
     }
 
     /// The antialiased picture, in linear light. It stays as it is until the next frame.
@@ -264,4 +264,11 @@ fn prepare(
     let targets = Targets::new(device, size, options);
     let filter = Filter::new(passes, options, (projection, size), &targets)?;
     Ok((targets, filter))
+}
+
+/// Records passes in a debug group, by which a debugger shows them together.
+fn encode_group(name: &str, passes: &[Bound], encoder: &mut CommandEncoder) {
+    encoder.push_debug_group(name);
+    passes.iter().for_each(|bound| bound.encode(encoder));
+    encoder.pop_debug_group();
 }

@@ -35,9 +35,16 @@ impl BoundChain {
     /// Records all passes into `encoder`, which is of the same device. It cannot fail and checks nothing; of its own it
     /// allocates nothing.
     pub fn encode(&self, encoder: &mut CommandEncoder) {
-        for pass in &self.passes {
+        self.encode_first(self.passes.len(), encoder);
+    }
+
+    /// Records the first passes, in a debug group with the chain's name.
+    fn encode_first(&self, count: usize, encoder: &mut CommandEncoder) {
+        encoder.push_debug_group(self.name());
+        for pass in &self.passes[..count] {
             pass.encode(encoder);
         }
+        encoder.pop_debug_group();
     }
 
     /// [`encode`](Self::encode), timed on the GPU: each pass is a span of `timer`, in the order of
@@ -48,10 +55,13 @@ impl BoundChain {
     /// [`Error::TimerFull`] if there is no room for all of them. Nothing has been recorded then.
     pub fn encode_timed(&self, encoder: &mut CommandEncoder, timer: &mut Timer) -> Result<(), Error> {
         timer.check_room(self.passes.len())?;
-        for pass in &self.passes {
-            pass.encode_timed(encoder, timer)?;
-        }
-        Ok(())
+        encoder.push_debug_group(self.name());
+        let timed = self
+            .passes
+            .iter()
+            .try_for_each(|pass| pass.encode_timed(encoder, timer));
+        encoder.pop_debug_group();
+        timed
     }
 
     /// Records the passes up to the one that writes `picture`, and returns its view: after a submission it holds the
@@ -60,9 +70,7 @@ impl BoundChain {
     pub fn encode_until(&self, encoder: &mut CommandEncoder, picture: &str) -> Option<&TextureView> {
         let writes = |pass: &straightline_manifest::chain::PassPlan| pass.writes.iter().any(|name| name == picture);
         let last = self.recipe.plan.passes.iter().position(writes)?;
-        for pass in &self.passes[..=last] {
-            pass.encode(encoder);
-        }
+        self.encode_first(last + 1, encoder);
         self.picture(picture)
     }
 
