@@ -61,16 +61,17 @@ export class Code {
   #glsl = "glsl450";
   #file = 0;
   #shown = { text: "", name: "" };
+  #map = null;
   #errors = [];
 
   /**
    * `host` gives: `files()`, what the kernel's files are now; `edit(index, text)`; `restore()`; `isEdited()`;
-   * `text(target)`, a promise of `{ text, refused, manifest }`; `engine(name)`, one of an engine's files by name or `{ refused }`;
+   * `text(target)`, a promise of `{ text, refused, manifest, map }`, with its source map; `engine(name)`, one of an engine's files by name or `{ refused }`;
    * `name()`, for files; `command(target)`.
    */
   constructor(host) {
     this.#host = host;
-    this.#editor = new Editor(this.#find("panel"), (text) => host.edit(this.#file, text));
+    this.#editor = new Editor(this.#find("panel"), (text) => host.edit(this.#file, text), (line) => this.#showSource(line));
     const tabs = this.#find("tabs");
     for (const [id, label] of [["kernel", "Kernel"], ...Object.entries(LANGUAGES).map(([id, l]) => [id, l.label])]) {
       const tab = element("button", { type: "button", role: "tab", id: `tab-${id}`, textContent: label });
@@ -126,6 +127,7 @@ export class Code {
       button.tabIndex = selected ? 0 : -1;
     }
     this.#find("panel").setAttribute("aria-labelledby", `tab-${tab}`);
+    this.#find("source").hidden = true;
     this.#find("restore").hidden = tab !== "kernel" || !this.#host.isEdited();
     this.#find("command").textContent = this.#host.command(this.target ?? "wgsl");
     if (tab === "kernel") this.#showKernel();
@@ -150,11 +152,38 @@ export class Code {
     this.#mark();
   }
 
+  /** Shows where a line of the shader comes from. */
+  #showSource(line) {
+    const statement = this.#map?.texts[this.target]?.find(({ first, last }) => first <= line && line <= last);
+    const note = this.#find("source");
+    note.hidden = !statement;
+    if (!statement) return;
+    const path = this.#map.files[statement.file];
+    const file = this.#host.files().findIndex((file) => file.path === path);
+    const at = `${path.split("/").pop()}:${statement.line}:${statement.column}`;
+    const link = element("button", { type: "button", className: "place", textContent: at, disabled: file < 0 });
+    link.addEventListener("click", async () => {
+      this.#file = file;
+      await this.open("kernel");
+      const { text } = this.#host.files()[file];
+      const before = text.split("\n").slice(0, statement.line - 1);
+      const from = before.join("\n").length + (before.length ? 1 : 0) + statement.column - 1;
+      const isWhole = text.startsWith(statement.expression, from);
+      const end = isWhole ? from + statement.expression.length : text.indexOf("\n", from);
+      this.#editor.goTo({ from, to: end < 0 ? text.length : end, line: statement.line });
+    });
+    const counters = (statement.counters ?? []).map(([name, value]) => `${name} ${value}`).join(", ");
+    const name = statement.name ? `, ${statement.name}` : "";
+    const expression = element("code", { textContent: statement.expression });
+    note.replaceChildren(`Line ${line}${name}, is from `, link, counters && ` in ${counters}`, expression);
+  }
+
   async #showShader(tab) {
     const target = this.target;
     this.#variants(LANGUAGES[tab].targets.map((target) => [target, NAMES[target]]), target);
-    const { text, refused, stage } = await this.#host.text(target);
+    const { text, refused, stage, map } = await this.#host.text(target);
     if (this.target !== target) return;
+    this.#map = map;
     const shown = text ?? (refused ? `// ${refused}\n` : "");
     this.#shown = { text: shown, name: `${this.#host.name()}.${extension(target, stage)}` };
     this.#editor.show(shown, { editable: false, label: `${NAMES[target]} of the kernel` });

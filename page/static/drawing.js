@@ -124,12 +124,12 @@ export class Drawing {
     });
   }
 
-  /** One language's text of a form, or why there is none. */
+  /** One language's text of a form with its source map, or why there is none. */
   async text({ asked, stage }, target) {
-    const shaders = [{ stage, format: FORMAT, target: [target] }];
+    const shaders = [{ stage, format: FORMAT, target: [target], debug: "map" }];
     const { json } = await this.#generator.ask({ do: "compile", ...asked, shaders });
-    const { texts, refused, manifest } = json.shaders[0];
-    return { text: texts[target], refused: refused[target], manifest, stage };
+    const { texts, refused, manifest, source_map } = json.shaders[0];
+    return { text: texts[target], refused: refused[target], manifest, stage, map: source_map };
   }
 
   /** The numbers that a form takes at run time: those of the visitor, of the scene, of the kernel. */

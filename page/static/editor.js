@@ -13,8 +13,8 @@ export class Editor {
   #places = [];
   #lines = 0;
 
-  /** `changed` is called with the text after each edit. */
-  constructor(panel, changed) {
+  /** `changed` is called with the text after each edit, `chosen` with the cursor's line, from 1, of a text that is only read. */
+  constructor(panel, changed, chosen) {
     const sheet = document.createElement("div");
     sheet.className = "sheet";
     this.#numbers.className = "numbers";
@@ -37,6 +37,9 @@ export class Editor {
       changed(this.#area.value);
     });
     this.#area.addEventListener("keydown", (event) => this.#key(event));
+    const choose = () => this.#area.readOnly && chosen(this.#area.value.slice(0, this.#area.selectionStart).split("\n").length);
+    this.#area.addEventListener("click", choose);
+    this.#area.addEventListener("keyup", choose);
   }
 
   get text() {
@@ -46,7 +49,7 @@ export class Editor {
   /** Shows a text; `label` is what a screen reader calls it. */
   show(text, { editable, label }) {
     this.#area.readOnly = !editable;
-    this.#area.title = editable ? "Tab indents; Escape, then Tab, leaves the text" : "";
+    this.#area.title = editable ? "Tab indents; Escape, then Tab, leaves the text" : "Click a line to see where it comes from";
     this.#area.ariaLabel = label;
     if (this.#area.value !== text) {
       this.#area.value = text;

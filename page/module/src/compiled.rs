@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use straightline_codegen::diagnostic::Errors;
 use straightline_codegen::emit::Target;
 use straightline_codegen::{Compiled, Overrides, ShaderSpec};
+use straightline_manifest::SourceMap;
 
 /// A kernel: one of the catalogue, or the text that the page's visitor has made of it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -104,15 +105,20 @@ fn shader_json(compiled: &Compiled, spec: &ShaderSpec, written: &Overrides) -> R
     let emitted = |targets: &[Target]| compiled.emit(&options.clone().targets(targets.iter().copied()));
     let targets: Vec<Target> = options.targets.iter().copied().collect();
     let (mut texts, mut refused) = (Map::new(), Map::new());
-    let mut take = |files: BTreeMap<Target, Vec<u8>>| {
+    let mut source_map: Option<SourceMap> = None;
+    let mut take = |files: BTreeMap<Target, Vec<u8>>, own: Option<SourceMap>| {
         for (target, text) in files {
             texts.insert(target.to_string(), json!(String::from_utf8_lossy(&text)));
+        }
+        match (&mut source_map, own) {
+            (Some(map), Some(own)) => map.texts.extend(own.texts),
+            (map, own) => *map = map.take().or(own),
         }
     };
     // All at once, which is quick; one by one where a language does not have what the kernel needs.
     let manifest = match emitted(&targets) {
         Ok(all) => {
-            take(all.files);
+            take(all.files, all.source_map);
             json!(all.manifest)
         }
         Err(_) => {
@@ -122,7 +128,7 @@ fn shader_json(compiled: &Compiled, spec: &ShaderSpec, written: &Overrides) -> R
                     (Ok(one), Some(manifest)) => {
                         manifest.entry_points.extend(one.manifest.entry_points);
                         manifest.hashes.extend(one.manifest.hashes);
-                        take(one.files);
+                        take(one.files, one.source_map);
                     }
                     (Ok(_), None) => {}
                     (Err(why), _) => {
@@ -133,7 +139,11 @@ fn shader_json(compiled: &Compiled, spec: &ShaderSpec, written: &Overrides) -> R
             json!(common)
         }
     };
-    Ok(json!({ "stage": options.stage, "manifest": manifest, "texts": texts, "refused": refused }))
+    let mut shader = json!({ "stage": options.stage, "manifest": manifest, "texts": texts, "refused": refused });
+    if let Some(map) = source_map {
+        shader["source_map"] = json!(map);
+    }
+    Ok(shader)
 }
 
 /// The first error with its help, in a line.
