@@ -12,9 +12,11 @@ mod constants;
 mod declared;
 mod exhaustive;
 mod expr;
+mod instances;
 mod methods;
 mod operators;
 mod order;
+mod overloads;
 mod pattern;
 mod places;
 mod qualified;
@@ -29,7 +31,7 @@ use crate::front::tree::{Const, Expr, Fields, Function, Generic, IntType, Librar
 use std::collections::{BTreeSet, HashMap};
 use types::{Kind, Table, Ty};
 
-pub use traits::{operator_function, trait_of};
+pub use overloads::{operator_function, trait_of};
 
 /// Results of inference for the expressions of an item, by their places.
 #[derive(Default)]
@@ -236,7 +238,7 @@ struct Checker<'l> {
     /// Type parameters of calls that have to have traits.
     bounded: Vec<traits::Bound>,
     /// Calls of functions with type parameters.
-    instances: Vec<traits::Instance>,
+    instances: Vec<instances::Instance>,
     /// Type of the function's result.
     result: Ty,
     /// The loops around, and blocks with labels, outermost first.

@@ -45,7 +45,7 @@ impl<'l> Checker<'l> {
         if !matches!(left, Ty::Struct(..) | Ty::Enum(..)) {
             return false;
         }
-        let keys = super::traits::trait_of(op)
+        let keys = super::overloads::trait_of(op)
             .zip(self.type_name(&left))
             .map(|((of, name), ty)| self.library.trait_keys(&ty, of, name).len());
         keys == Some(1)
@@ -91,7 +91,7 @@ impl<'l> Checker<'l> {
         if op.is_comparison() {
             return self.check_comparison(op, left, right).then_some(Ty::Bool);
         }
-        if let Some(of) = super::traits::trait_of(op)
+        if let Some(of) = super::overloads::trait_of(op)
             && let Some(result) = self.operator_of(of, left, right)
         {
             return Some(result);
@@ -254,7 +254,7 @@ impl<'l> Checker<'l> {
                 })
             }
             _ if !op.is_comparison() && (self.is_own(&left) || self.is_own(&right)) => {
-                let of = super::traits::trait_of(op).map(|(of, _)| of).unwrap_or_default();
+                let of = super::overloads::trait_of(op).map(|(of, _)| of).unwrap_or_default();
                 let named = |ty: &Ty| self.type_name(ty).filter(|name| name != "_");
                 match (named(&left), named(&right)) {
                     (Some(l), Some(r)) if l == r => Some(format!("write an `impl {of} for {l}`")),

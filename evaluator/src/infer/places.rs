@@ -336,7 +336,7 @@ impl<'l> Checker<'l> {
             None => self.check_expr(value, &ty),
             Some(op) => {
                 let found = self.infer_expr(value, None);
-                if let Some((of, name)) = super::traits::trait_of(op)
+                if let Some((of, name)) = super::overloads::trait_of(op)
                     && matches!(self.peel_refs(&ty).0, Ty::Struct(..) | Ty::Enum(..))
                 {
                     let assigned = (format!("{of}Assign"), format!("{name}_assign"));

@@ -1,10 +1,9 @@
-//! Trait functions: methods of type parameters, operators on structures, functions that several implementations provide under one name.
+//! Trait functions: methods of type parameters, and functions that several implementations provide under one name.
 
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Expr, ExprKind, Function, Generic, Type, qualify_name};
-use crate::ir::{BinaryOp, UnaryOp};
+use crate::front::tree::{Function, qualify_name};
 use std::collections::HashMap;
 
 /// A call whose function depends on the type of its result.
@@ -18,59 +17,9 @@ pub struct Pending {
 
 /// A type parameter of a call, and the traits that its type has to have.
 pub struct Bound {
-    span: Span,
-    ty: Ty,
-    traits: Vec<String>,
-}
-
-/// A call of a function with type parameters, and what they are.
-pub struct Instance {
-    span: Span,
-    /// Key of the function.
-    key: String,
-    /// The types in the order of the parameters; nothing of constants.
-    types: Vec<Option<Ty>>,
-}
-
-/// The trait of an operator and its function.
-pub fn trait_of(op: BinaryOp) -> Option<(&'static str, &'static str)> {
-    Some(match op {
-        BinaryOp::Add => ("Add", "add"),
-        BinaryOp::Sub => ("Sub", "sub"),
-        BinaryOp::Mul => ("Mul", "mul"),
-        BinaryOp::Div => ("Div", "div"),
-        BinaryOp::Rem => ("Rem", "rem"),
-        BinaryOp::And => ("BitAnd", "bitand"),
-        BinaryOp::Or => ("BitOr", "bitor"),
-        BinaryOp::Xor => ("BitXor", "bitxor"),
-        BinaryOp::Shl => ("Shl", "shl"),
-        BinaryOp::Shr => ("Shr", "shr"),
-        _ => return None,
-    })
-}
-
-/// The operator whose function a path names, as a value: `f32::add`, `Add::add`. The type may be a trait.
-pub fn operator_function(of: &str, name: &str) -> Option<BinaryOp> {
-    const OPERATORS: [BinaryOp; 10] = [
-        BinaryOp::Add,
-        BinaryOp::Sub,
-        BinaryOp::Mul,
-        BinaryOp::Div,
-        BinaryOp::Rem,
-        BinaryOp::And,
-        BinaryOp::Or,
-        BinaryOp::Xor,
-        BinaryOp::Shl,
-        BinaryOp::Shr,
-    ];
-    let is_it =
-        |op: &BinaryOp| trait_of(*op).is_some_and(|(own, function)| function == name && (own == of || is_number(of)));
-    OPERATORS.into_iter().find(is_it)
-}
-
-/// Returns whether a type is a number, a vector or a matrix.
-fn is_number(ty: &str) -> bool {
-    crate::front::is_prelude_type(ty) && !crate::front::is_resource(ty)
+    pub(super) span: Span,
+    pub(super) ty: Ty,
+    pub(super) traits: Vec<String>,
 }
 
 impl<'l> Checker<'l> {
@@ -111,7 +60,7 @@ impl<'l> Checker<'l> {
     }
 
     /// Returns whether a value of a type can be passed for a parameter. An unknown type fits everything.
-    fn fits_parameter(&mut self, wanted: &Ty, found: &Ty) -> bool {
+    pub(super) fn fits_parameter(&mut self, wanted: &Ty, found: &Ty) -> bool {
         match (self.table.resolve_shallow(wanted), self.table.resolve_shallow(found)) {
             (Ty::Ref(..), found @ (Ty::Struct(..) | Ty::Enum(..) | Ty::Float | Ty::Int(_) | Ty::Vector(..))) => {
                 // Of a method's own `&self`.
@@ -221,43 +170,6 @@ impl<'l> Checker<'l> {
         self.substitute_type(&function.result, &given, span)
     }
 
-    /// Notes what the type parameters of a call are, and what they have to be.
-    pub fn note_instance(&mut self, key: &str, function: &'l Function, given: &HashMap<String, Ty>, span: Span) {
-        for (name, traits) in &function.bounds {
-            if let Some(ty) = given.get(name) {
-                self.bounded.push(Bound {
-                    span,
-                    ty: ty.clone(),
-                    traits: traits.clone(),
-                });
-            }
-        }
-        let own = function.params.first();
-        if own.is_some_and(|own| own.name == "self" && own.ty.is_mutable_reference()) {
-            // The receiver is a place, which a call does not take.
-            return;
-        }
-        // Methods of iterators are called with the list of the values.
-        if key.starts_with("Iterator::") {
-            return;
-        }
-        if function
-            .generics
-            .iter()
-            .any(|generic| matches!(generic, Generic::Type(_)))
-        {
-            let types = function.generics.iter().map(|generic| match generic {
-                Generic::Type(name) => given.get(name).cloned(),
-                Generic::Const(..) => None,
-            });
-            self.instances.push(Instance {
-                span,
-                key: key.to_owned(),
-                types: types.collect(),
-            });
-        }
-    }
-
     /// The traits that a type parameter has, or that a `dyn` names.
     pub fn traits_of(&self, parameter: &str) -> Vec<String> {
         if let Some(traits) = self.bounds.and_then(|bounds| bounds.get(parameter)) {
@@ -348,75 +260,6 @@ impl<'l> Checker<'l> {
                 .help(format!("bound it by a trait that does: `{parameter}: Trait`")),
             );
         }
-    }
-
-    /// Returns the type of the result of an operator's trait for two types; `None` if neither is a structure or an enum with that trait.
-    pub fn operator_of(&mut self, (of, name): (&str, &str), left: &Ty, right: &Ty) -> Option<Ty> {
-        let own = |ty: Ty| matches!(ty, Ty::Struct(..) | Ty::Enum(..));
-        if !own(self.peel_refs(left).0) && !own(self.peel_refs(right).0) {
-            return None;
-        }
-        let library = self.library;
-        let keys = library.trait_keys(&self.type_name(&self.peel_refs(left).0)?, of, name);
-        for key in keys {
-            let function = &library.functions[key];
-            let [own, other] = function.params.as_slice() else {
-                continue;
-            };
-            let (table, errors) = (self.table.clone(), self.errors.len());
-            let given = self.instantiate_function(function, &[]);
-            let of_own = self.substitute_type(&own.ty, &given, own.span);
-            let of_other = self.substitute_type(&other.ty, &given, other.span);
-            let is_place = function.params[0].ty.is_mutable_reference();
-            let taken = match is_place {
-                true => self.peel_refs(left).0,
-                false => left.clone(),
-            };
-            let of_own = if is_place { self.peel_refs(&of_own).0 } else { of_own };
-            if self.table.unify(&of_own, &taken) && self.table.unify(&of_other, right) {
-                return Some(self.substitute_type(&function.result, &given, own.span));
-            }
-            self.table = table;
-            self.errors.truncate(errors);
-        }
-        None
-    }
-
-    /// Returns the type of `-` or `!` before a structure or an enum.
-    pub fn unary_of(&mut self, op: UnaryOp, operand: &Ty) -> Option<Ty> {
-        let (of, name) = match op {
-            UnaryOp::Neg => ("Neg", "neg"),
-            _ => ("Not", "not"),
-        };
-        let library = self.library;
-        let (Ty::Struct(ty, _) | Ty::Enum(ty, _)) = self.table.resolve_shallow(operand) else {
-            return None;
-        };
-        let keys = library.trait_keys(&ty, of, name);
-        let (_, function) = self.select_overload(&keys, std::slice::from_ref(operand))?;
-        let given = self.instantiate_function(function, &[]);
-        let own = self.substitute_type(&function.params.first()?.ty, &given, function.span);
-        self.table.unify(&own, operand);
-        Some(self.substitute_type(&function.result, &given, function.span))
-    }
-
-    /// Returns the type of an indexed structure.
-    pub fn infer_indexed(&mut self, base: &Ty, index: &Ty) -> Option<Ty> {
-        let Ty::Struct(ty, _) = base else { return None };
-        let library = self.library;
-        let keys = library.trait_keys(ty, "Index", "index");
-        let (key, function) = self.select_overload(&keys, &[base.clone(), index.clone()])?;
-        let _ = key;
-        let given = self.instantiate_function(function, &[]);
-        for (param, found) in function.params.iter().zip([base, index]) {
-            let wanted = self.substitute_type(&param.ty, &given, param.span);
-            self.fits_parameter(&wanted, found);
-        }
-        let result = self.substitute_type(&function.result, &given, function.span);
-        Some(match self.table.resolve_shallow(&result) {
-            Ty::Ref(_, inner) => *inner,
-            other => other,
-        })
     }
 
     /// `x.into()`, or `Default::default()`: which function that is, what it has to give tells.
@@ -545,33 +388,5 @@ impl<'l> Checker<'l> {
                 "write an `impl {of} for {ty}`, or give a value of a type that has it"
             )),
         );
-    }
-
-    /// The types of calls with type parameters, by their places: the key of each function, and the types.
-    pub fn named_instances(&mut self) -> HashMap<Span, (String, Vec<Option<Type>>)> {
-        let mut named = HashMap::new();
-        for Instance { span, key, types } in std::mem::take(&mut self.instances) {
-            let types = types.iter().map(|ty| self.written_type(ty.as_ref()?, span));
-            named.insert(span, (key, types.collect()));
-        }
-        named
-    }
-
-    /// A type as it is written, with `_` for arguments that are not known; `None` of a type without a name.
-    fn written_type(&self, ty: &Ty, span: Span) -> Option<Type> {
-        let plain = |name: String| Type::Name(name, Vec::new());
-        match self.table.resolve_shallow(ty) {
-            Ty::Param(name) => self.params.contains(&name).then(|| plain(name)),
-            Ty::Const(value) => {
-                let kind = ExprKind::Int(value, None);
-                Some(Type::Const(Box::new(Expr { kind, span })))
-            }
-            Ty::Struct(name, args) => {
-                let args = args.iter().map(|arg| self.written_type(arg, span));
-                let args = args.map(|arg| arg.unwrap_or_else(|| plain(crate::front::INFERRED.to_owned())));
-                Some(Type::Name(name, args.collect()))
-            }
-            other => self.type_name(&other).map(plain),
-        }
     }
 }
