@@ -1,6 +1,7 @@
-//! Remarks on settings with hidden costs: blocks of pixels that keep many values alive, and unroll factors that multiply.
+//! Remarks on settings with hidden costs: blocks of pixels that keep many values alive, unroll factors that multiply, and
+//! loops that are unrolled to very many operations.
 
-use straightline_codegen::{Compiled, Kernel, Settings, Unroll};
+use straightline_codegen::{Compiled, Kernel, LoopReport, Settings, Unroll};
 
 /// Number of live scalars above which GPUs run fewer threads or spill (docs/study.md, "Live values").
 const MANY_ALIVE: u32 = 64;
@@ -8,9 +9,18 @@ const MANY_ALIVE: u32 = 64;
 /// Copies of a loop's body above which an unroll factor was probably meant for fewer loops.
 const MANY_COPIES: u64 = 64;
 
+/// Copies of a loop's body, and their operations, from which the loop is better left in the shader: generators and drivers
+/// take seconds for such a text.
+const LONG_LOOP: (u64, u64) = (32, 5000);
+
 /// Returns the remarks on a compiled kernel, one line each.
 pub fn find_notes(kernel: &Kernel, settings: &Settings, compiled: &Compiled) -> Vec<String> {
-    let notes = [crowded_block(kernel, settings, compiled), multiplied_factors(compiled)];
+    let long = long_loop(compiled).map(|(_, note)| note);
+    let notes = [
+        crowded_block(kernel, settings, compiled),
+        multiplied_factors(compiled),
+        long,
+    ];
     notes.into_iter().flatten().collect()
 }
 
@@ -43,4 +53,21 @@ fn multiplied_factors(compiled: &Compiled) -> Option<String> {
         "`{path}` is written {} times: the factors of loops in loops multiply; give one to this loop alone: `--unroll none --unroll-loop {path}={factor}`",
         most.copies
     ))
+}
+
+/// Returns the loop that is unrolled to the most operations, if they are very many and it could stay in the shader, and a
+/// remark on it.
+pub fn long_loop(compiled: &Compiled) -> Option<(&LoopReport, String)> {
+    let most = compiled.loops.iter().max_by_key(|report| report.operations)?;
+    let (copies, operations) = LONG_LOOP;
+    let is_long = most.copies >= copies && most.operations >= operations;
+    if !is_long || most.unroll != Unroll::Full || most.reason.is_some() {
+        return None;
+    }
+    let path = most.policy_path();
+    let note = format!(
+        "`{path}` is unrolled to {} operations in {} copies: `--unroll-loop {path}=none` leaves it in the shader",
+        most.operations, most.copies
+    );
+    Some((most, note))
 }

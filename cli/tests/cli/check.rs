@@ -4,7 +4,7 @@ use crate::common;
 
 use cargo_metadata::Message;
 use cargo_metadata::diagnostic::{Diagnostic, DiagnosticLevel, DiagnosticSpan};
-use common::{example, fails, finishes, scratch, straightline, write};
+use common::{example, fails, finishes, here, scratch, straightline, write};
 use std::path::Path;
 
 /// Three errors: behind characters of two, three and four bytes; over two lines; and in a function that the kernel calls.
@@ -442,4 +442,35 @@ fn a_uniform_named_like_a_coordinate_is_noted() {
     let (found, succeeded) = messages(&["check", "--message-format", "json", &path]);
     let levels: Vec<DiagnosticLevel> = found.iter().map(|message| message.level).collect();
     assert_eq!((levels.as_slice(), succeeded), (&[DiagnosticLevel::Note][..], true));
+}
+
+/// A loop that could stay in the shader, and is unrolled to thousands of operations, is pointed out.
+#[test]
+fn a_loop_with_very_many_operations_is_noted() {
+    let march = |steps: u32| {
+        format!(
+            "pub fn march(image: &Frame<Vec4>, pixel: IVec2) -> Vec4 {{\n    let ray = image.load(pixel).truncate();\n    \
+             let mut t = 0.0;\n    for step in 0..{steps} {{\n        let d = (ray * t).sin().length() - 0.5;\n        \
+             if d < 0.001 {{\n            break;\n        }}\n        t += d;\n    }}\n    Vec4::splat(t)\n}}\n"
+        )
+    };
+    let folder = scratch("march");
+    let long = write(&folder, "march.rs", &march(800));
+    let said = finishes(&["check", &long]);
+    assert!(said.contains(":4: note: `march.step` is unrolled to"), "{said}");
+    assert!(
+        said.contains("`--unroll-loop march.step=none` leaves it in the shader"),
+        "{said}"
+    );
+    let explained = finishes(&["explain", &long]);
+    assert!(explained.contains("`--unroll-loop march.step=none`"), "{explained}");
+    for quiet in [
+        write(&folder, "short.rs", &march(40)),
+        here("kernels/filters/bilateral.rs"),
+    ] {
+        let said = finishes(&["check", &quiet]);
+        assert!(!said.contains("--unroll-loop"), "{said}");
+    }
+    let explained = finishes(&["explain", &long, "--unroll-loop", "march.step=none"]);
+    assert!(!explained.contains("is unrolled to"), "{explained}");
 }

@@ -1,5 +1,7 @@
-//! Notes on kernels without errors: sums whose order of operations matters, and uniforms that look like coordinates.
+//! Notes on kernels without errors: sums whose order of operations matters, uniforms that look like coordinates, and loops
+//! that are unrolled to very many operations.
 
+use super::super::notes::long_loop;
 use super::message;
 use crate::args::MessageFormat;
 use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
@@ -17,11 +19,15 @@ const COORDINATES: [&str; 8] = [
     "tex_coords",
 ];
 
-/// Returns a note for each uniform that is named like a coordinate, and for each line whose operations drivers must not
-/// reorder.
+/// Returns a note for each uniform that is named like a coordinate, for each line whose operations drivers must not reorder,
+/// and for a loop that is unrolled to very many operations.
 pub fn find_notes(compiled: &Compiled, kernel: &Kernel) -> Vec<Errors> {
     let mut notes = note_coordinates(compiled, kernel);
     notes.extend(note_orders(compiled, kernel));
+    notes.extend(long_loop(compiled).map(|(report, note)| Errors {
+        diagnostics: vec![Diagnostic::remark_at(report.span, note)],
+        files: kernel.files().to_vec().into(),
+    }));
     notes
 }
 
