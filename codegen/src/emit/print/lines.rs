@@ -52,6 +52,25 @@ impl<'g> Lines<'g> {
     }
 }
 
+/// A text with the sources of its statements.
+pub struct PrintedText<'g> {
+    /// The text.
+    pub text: String,
+    /// Statements of the entry point that have a source, in order.
+    pub statements: Vec<PrintedStatement<'g>>,
+}
+
+impl PrintedText<'_> {
+    /// Puts lines in front of the text.
+    pub fn prepend(&mut self, lines: &str) {
+        self.text.insert_str(0, lines);
+        let count = line_count(lines);
+        self.statements
+            .iter_mut()
+            .for_each(|statement| statement.move_down(count));
+    }
+}
+
 /// Number of line breaks in a text.
 pub fn line_count(text: &str) -> u32 {
     text.bytes().filter(|byte| *byte == b'\n').count() as u32

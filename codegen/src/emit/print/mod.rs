@@ -19,7 +19,7 @@ use straightline_evaluator::ir::{self, Scalar, Span, UnaryOp};
 pub use glsl::{Glsl, LOOSE_REGION};
 pub use header::{GENERATOR, header_lines};
 pub use hlsl::Hlsl;
-pub use lines::PrintedStatement;
+pub use lines::{PrintedStatement, PrintedText};
 pub use wgsl::Wgsl;
 
 /// Returns a type in GLSL's spelling.
@@ -139,25 +139,6 @@ pub trait Language {
 /// Prints a module in a language, under a header.
 pub fn print_module<'g>(language: &dyn Language, module: &Module<'g>, header: &[String]) -> PrintedText<'g> {
     Printed::new(language, module).with_header(language, header)
-}
-
-/// A text with the sources of its statements.
-pub struct PrintedText<'g> {
-    /// The text.
-    pub text: String,
-    /// Statements of the entry point that have a source, in order.
-    pub statements: Vec<PrintedStatement<'g>>,
-}
-
-impl PrintedText<'_> {
-    /// Puts lines in front of the text.
-    pub fn prepend(&mut self, lines: &str) {
-        self.text.insert_str(0, lines);
-        let count = line_count(lines);
-        self.statements
-            .iter_mut()
-            .for_each(|statement| statement.move_down(count));
-    }
 }
 
 /// A module as text, without its header.
