@@ -194,6 +194,39 @@ async function breaksAndMends(page) {
   assert.doesNotMatch(await text(page, "right-name"), /edited/);
 }
 
+test("a line of a shader leads to its source", async () => {
+  const page = await open(browser, server.url, { hash: "#kernel=sraa" });
+  for (const tab of ["wgsl", "glsl", "hlsl"]) {
+    await page.click(`#tab-${tab}`);
+    await settled(page);
+    const choose = (what) =>
+      page.$eval(
+        "#panel textarea",
+        (area, what) => {
+          const at = area.value.indexOf(what);
+          area.setSelectionRange(at, at);
+          area.dispatchEvent(new Event("click"));
+        },
+        what,
+      );
+    await choose("number_s0_t1 =");
+    const said = await text(page, "source");
+    assert.match(said, /^Line \d+, number_s0_t1, is from metric\.rs:\d+:\d+ in sample 0, tap 1/, `${tab}: ${said}`);
+    if (pictures) await page.screenshot({ path: join(pictures, `source-${tab}.png`) });
+    // A line of the header comes from nothing.
+    await choose("//");
+    assert.equal(await page.$eval("#source", (note) => note.hidden), true);
+    await choose("number_s0_t1 =");
+    await page.click("#source button");
+    await settled(page);
+    assert.equal(await page.$eval("#tab-kernel", (button) => button.ariaSelected), "true");
+    const chosen = await page.$eval("#panel textarea", (area) => area.value.slice(area.selectionStart, area.selectionEnd));
+    assert.equal(chosen, "number(cfg, turned(cfg, sample, tap))");
+  }
+  assert.deepEqual(page.problems, []);
+  await page.close();
+});
+
 test("what is nested too deep for a browser is an error, and no end of it", async () => {
   const page = await open(browser, server.url, { hash: "#kernel=kernels/sobel" });
   await page.click("#tab-kernel");
