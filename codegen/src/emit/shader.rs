@@ -7,6 +7,7 @@ use super::statements::{basic_blocks, count_text};
 use super::{ast, comments, host_reads, legalise, lower, names, print, tidy, translate};
 use crate::compiled::Compiled;
 use crate::spec::{DebugInfo, Target};
+use std::collections::BTreeSet;
 use straightline_manifest::{Counts, Form, Precision};
 
 /// Returns the tree of a kernel's statements, with its outputs at the end.
@@ -115,8 +116,10 @@ impl<'g> Shader<'_, 'g> {
         finish_tree(&mut tree, resources, target)?;
         let mut header = print::header_lines(self.compiled, counts, self.resources);
         if resources.options.debug == DebugInfo::Lines {
-            let files = resources.files.iter().enumerate();
-            header.extend(files.map(|(k, path)| format!("Lines of string {k} are those of {path}.")));
+            let places = self.compiled.graph.places.iter().flatten();
+            let used: BTreeSet<u32> = places.map(|place| place.span.file).collect();
+            let named = used.iter().filter_map(|k| Some((k, resources.files.get(*k as usize)?)));
+            header.extend(named.map(|(k, path)| format!("Lines of string {k} are those of {path}.")));
         }
         let printer = print::Glsl::new(resources, target);
         let glsl = print::print_module(&printer, &tree, &header);

@@ -1,6 +1,5 @@
 //! Validation by naga, and its output languages.
 
-use super::comments::shown_path;
 use super::derived::Derived;
 use super::print::PrintedText;
 use super::refusal::Refusal;
@@ -83,11 +82,7 @@ impl<'g> Module<'g> {
             .map_err(|e| self.translation_error("spirv", e))?;
         let words = match has_lines {
             true => super::spirv::set_source_lines(&words, &self.wgsl.statements, |file| SourceFile {
-                path: compiled
-                    .graph
-                    .files
-                    .get(file as usize)
-                    .map_or("", |path| shown_path(path)),
+                path: resources.files.get(file as usize).map_or("", String::as_str),
                 text: file_text(compiled, file).unwrap_or_default(),
             }),
             false => words,
