@@ -349,7 +349,7 @@ impl Kernel {
             let resolved = self.resolved(settings)?;
             let evaluated = pipeline::evaluate(&self.source, &library, &resolved);
             let (start, _) = evaluated.map_err(|errors| {
-                self.blame_overrides(&resolved, errors, &|settings| {
+                self.name_overrides(&resolved, errors, &|settings| {
                     pipeline::evaluate(&self.source, &library, settings).map(drop)
                 })
             })?;
@@ -370,7 +370,7 @@ impl Kernel {
             let settings = self.resolved(settings)?;
             let compiled = pipeline::compile(&self.source, &library, &settings, observer, change);
             let mut compiled = compiled.map_err(|errors| {
-                self.blame_overrides(&settings, errors, &|settings| {
+                self.name_overrides(&settings, errors, &|settings| {
                     pipeline::compile(&self.source, &library, settings, &mut |_, _| {}, change).map(drop)
                 })
             })?;
@@ -392,14 +392,14 @@ impl Kernel {
     }
 
     /// Errors that name the overrides to which they are due.
-    fn blame_overrides(
+    fn name_overrides(
         &self,
         settings: &Settings,
         errors: Errors,
         compile: &dyn Fn(&Settings) -> Result<(), Errors>,
     ) -> Errors {
         match self.option_values(&settings.options) {
-            Ok(values) => overridden::blame_overrides(&settings.options, &values, errors, &|options| {
+            Ok(values) => overridden::name_overrides(&settings.options, &values, errors, &|options| {
                 compile(&Settings {
                     options,
                     ..settings.clone()

@@ -36,7 +36,7 @@ pub fn reads_override(graph: &Graph) -> bool {
 
 /// Returns the errors of a kernel or chain with the options `texts`, whose values are `values`, so that each names the
 /// override that it is due to: the option that alone makes `compile` fail. Other errors are returned as they are.
-pub fn blame_overrides(
+pub fn name_overrides(
     texts: &[OptionText],
     values: &OptionValues,
     errors: Errors,

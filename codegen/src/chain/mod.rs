@@ -156,7 +156,7 @@ impl Chain {
         let options = self.option_values(&texts)?;
         let read = |options: &OptionValues| deep(|| front::read_chain(&self.files, &self.name, options));
         let chain = read(&options).map_err(|errors| {
-            overridden::blame_overrides(&texts, &options, errors, &|texts| {
+            overridden::name_overrides(&texts, &options, errors, &|texts| {
                 read(&self.option_values(&texts)?).map(drop)
             })
         })?;

@@ -34,7 +34,7 @@ pub fn add_text(map: &mut SourceMap, target: Target, text: &PrintedText<'_>, com
 }
 
 /// Returns the text of a source file. The files of a chain's passes are found by their paths.
-pub fn file_text<'c>(compiled: &'c Compiled, file: u32) -> Option<&'c str> {
+pub fn file_text(compiled: &Compiled, file: u32) -> Option<&str> {
     let path = compiled.graph.files.get(file as usize)?;
     let is_named = |of: &&File| of.path == *path;
     Some(&compiled.places.files.iter().find(is_named)?.text)

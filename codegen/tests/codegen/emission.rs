@@ -689,3 +689,17 @@ fn hosts_read_their_textures() {
         assert!(message.contains(said), "{message}");
     }
 }
+
+/// An array that a branch changes is changed in place, though elements of its earlier value are read after the first
+/// write.
+#[test]
+fn arrays_are_changed_in_place_while_other_elements_are_read() {
+    let kernel = "pub fn k(image: &Frame<Vec4>, pixel: IVec2) -> Vec4 { let mut sums = [Vec4::ZERO; 4]; \
+                  for y in -2..=2 { let c = image.load(pixel + ivec2(0, y)); \
+                  if y <= 0 { sums[0] += c; sums[1] += c * 2.0; } \
+                  if y >= 0 { sums[2] += c; sums[3] += c * 3.0; } } sums[0] * sums[3] + sums[1] * sums[2] }";
+    let emitted = emit(&compile(kernel, Unroll::None, Branches::Keep), Stage::Compute);
+    let text = text(&emitted, Target::Wgsl);
+    assert!(!text.contains("sums_2"), "{text}");
+    assert_eq!(text.matches("array<vec4f, 4>(").count(), 1, "{text}");
+}

@@ -198,7 +198,7 @@ fn debug_information(bytes: &[u8]) -> BTreeMap<String, (String, Vec<u32>)> {
                 current = names[&operands[2]].clone();
                 found.insert(current.clone(), (string(&operands[3..]), Vec::new()));
             }
-            2 => found.get_mut(&current).expect("a source").0 += &string(&operands),
+            2 => found.get_mut(&current).expect("a source").0 += &string(operands),
             8 => found
                 .get_mut(&names[&operands[0]])
                 .expect("a source")
