@@ -210,7 +210,11 @@ fn a_frame_of_a_chain_allocates_what_its_passes_do() {
         same(
             &gpu,
             |encoder| bound.encode(encoder),
-            |encoder| handwritten.iter().for_each(|pass| pass.encode(encoder)),
+            |encoder| {
+                encoder.push_debug_group(bound.name());
+                handwritten.iter().for_each(|pass| pass.encode(encoder));
+                encoder.pop_debug_group();
+            },
             stage.name(),
         );
     }
