@@ -330,7 +330,7 @@ impl Expr {
     }
 }
 
-/// Where the value of a statement comes from in the kernel's source.
+/// Source of a statement's value in the kernel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Source<'g> {
     /// The variable that holds the value.

@@ -271,7 +271,7 @@ fn emit_compiled(compiled: &Compiled, options: &EmitOptions) -> Result<Emitted, 
     let module = shader.validated_module(&counts, false)?;
     let mut manifest = resources.build_manifest(compiled, &counts)?;
     let mut files = BTreeMap::new();
-    let mut source_map = (options.debug != DebugInfo::None).then(|| source_map::empty_map(compiled));
+    let mut source_map = (options.debug != DebugInfo::None).then(|| source_map::empty_map(&resources));
     let mut map = |target: Target, text: print::PrintedText<'_>| {
         if let Some(map) = &mut source_map {
             source_map::add_text(map, target, &text, compiled);

@@ -1,13 +1,13 @@
 //! Bindings of a shader: only resources that are read or written.
 
 use super::EmitOptions;
+use super::comments::shown_path;
 use super::derived::{self, Combined, Derived, HostFunction};
 use super::layout::{layout_uniforms, value_type};
 use super::outputs::BoundOutput;
 use super::own_words::{DEFINE, OF_OUTPUT, OUTPUT, OUTPUTS, RESOLUTION, SAMPLER, UNIFORMS};
 use super::places::{Named, Places};
 use super::refusal::Refusal;
-use super::source_map::source_paths;
 use super::words::free_name;
 use crate::compiled::Compiled;
 use crate::spec::Target;
@@ -72,7 +72,7 @@ pub struct Resources {
     pub places: Places,
     /// Options of the emission.
     pub options: EmitOptions,
-    /// Paths of the source's files, by the index that places carry.
+    /// Paths of the source's files as a shader may show them, by the index that places carry.
     pub files: Vec<String>,
     /// Every texture of the kernel, used or not, by index.
     pub(super) textures: Vec<Texture>,
@@ -363,7 +363,7 @@ impl Resources {
             outputs,
             places,
             options: options.clone(),
-            files: source_paths(graph),
+            files: graph.files.iter().map(|path| shown_path(path).to_owned()).collect(),
             textures: graph.textures.clone(),
             buffers: graph.buffers.clone(),
             samplers: graph.samplers.clone(),

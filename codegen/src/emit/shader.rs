@@ -94,14 +94,17 @@ impl<'g> Shader<'_, 'g> {
 
     pub fn print_wgsl(&self, counts: &Counts) -> Result<PrintedText<'g>, Refusal> {
         let options = &self.resources.options;
-        let mut wgsl = self.own_wgsl(counts);
+        let wgsl = self.own_wgsl(counts);
         if options.is_function() {
             let enabled = if self.resources.half { "enable f16;\n" } else { "" };
             let stubs = host_reads::host_stubs(&self.wgsl.resources);
             translate::validate_wgsl(&self.compiled.kernel, &format!("{enabled}{}{stubs}", wgsl.text))?;
         }
         if options.enable_subgroups && self.resources.subgroups {
-            wgsl.prepend(&format!("enable subgroups;\n{}", directive_gap(self.resources.half)));
+            let mut enabled = PrintedText::default();
+            enabled.push_text(&format!("enable subgroups;\n{}", directive_gap(self.resources.half)));
+            enabled.append(&wgsl);
+            return Ok(enabled);
         }
         Ok(wgsl)
     }

@@ -1,29 +1,25 @@
 //! The source map of a shader's texts.
 
-use super::comments::shown_path;
 use super::print::{PrintedStatement, PrintedText};
+use super::resources::Resources;
 use crate::compiled::Compiled;
 use crate::spec::Target;
+use std::collections::BTreeMap;
 use straightline_evaluator::diagnostic::File;
-use straightline_evaluator::ir::{Graph, Span};
+use straightline_evaluator::ir::Span;
 use straightline_manifest::{MappedStatement, SOURCE_MAP_SCHEMA, SourceMap};
 
 /// Number of characters after which an expression is cut.
 const LONGEST: usize = 120;
 
 /// Returns a source map without texts.
-pub fn empty_map(compiled: &Compiled) -> SourceMap {
+pub fn empty_map(resources: &Resources) -> SourceMap {
     SourceMap {
         schema: SOURCE_MAP_SCHEMA,
-        kernel: compiled.kernel.clone(),
-        files: source_paths(&compiled.graph),
-        texts: Default::default(),
+        kernel: resources.kernel.clone(),
+        files: resources.files.clone(),
+        texts: BTreeMap::new(),
     }
-}
-
-/// Returns the paths of the source's files as a shader may show them.
-pub fn source_paths(graph: &Graph) -> Vec<String> {
-    graph.files.iter().map(|path| shown_path(path).to_owned()).collect()
 }
 
 /// Adds the statements of a text.

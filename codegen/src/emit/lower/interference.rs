@@ -18,7 +18,7 @@ type Needed = BTreeMap<NodeId, Elements>;
 enum Elements {
     /// All, or some that are not known.
     All,
-    /// Those with these indices.
+    /// Elements with these indices.
     Only(BTreeSet<u32>),
 }
 
@@ -111,15 +111,13 @@ impl Walk<'_> {
         // Values from outside that the next iteration reads are live at the end of each iteration.
         let mut outside = BTreeSet::new();
         self.collect_read(inside, body, &mut outside);
-        let all = |versions: &BTreeSet<NodeId>| -> Vec<_> {
-            versions.iter().map(|version| (*version, Elements::All)).collect()
-        };
-        needed.extend(all(&outside));
+        let outside: Needed = outside.into_iter().map(|version| (version, Elements::All)).collect();
+        needed.extend(outside.clone());
         let carried = |k: usize| region.params[k + 1];
         (0..region.results.len()).for_each(|k| self.write_version(carried(k), needed));
         region.yielded_values().for_each(|id| self.read_version(id, needed));
         self.walk_block(body, needed);
-        needed.extend(all(&outside));
+        needed.extend(outside);
         for (k, init) in self.graph.node(node).args[2..].iter().enumerate().rev() {
             self.write_version(carried(k), needed);
             self.read_version(*init, needed);

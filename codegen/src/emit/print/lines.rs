@@ -16,62 +16,48 @@ pub struct PrintedStatement<'g> {
     pub place: &'g Place,
 }
 
-impl PrintedStatement<'_> {
-    /// Moves the statement down by some lines.
-    pub fn move_down(&mut self, lines: u32) {
-        self.first += lines;
-        self.last += lines;
-    }
-}
-
-/// Lines of text, ended by line breaks.
+/// A text with the sources of its statements.
 #[derive(Clone, Debug, Default)]
-pub struct Lines<'g> {
+pub struct PrintedText<'g> {
     /// The text.
     pub text: String,
     /// Statements that have a place in the source, in order.
     pub statements: Vec<PrintedStatement<'g>>,
-    count: u32,
+    /// Number of line breaks in the text.
+    lines: u32,
 }
 
-impl<'g> Lines<'g> {
-    /// Adds a statement, without the line break at its end.
-    pub fn push(&mut self, text: &str, source: Source<'g>, name: &str) {
-        let first = self.count + 1;
+impl<'g> PrintedText<'g> {
+    /// Adds text that comes from no statement.
+    pub fn push_text(&mut self, text: &str) {
         self.text += text;
-        self.text.push('\n');
-        self.count += 1 + line_count(text);
+        self.lines += text.bytes().filter(|byte| *byte == b'\n').count() as u32;
+    }
+
+    /// Adds a statement in lines of its own.
+    pub fn push_statement(&mut self, text: &str, source: Source<'g>, name: &str) {
+        let first = self.lines + 1;
+        self.push_text(text);
+        self.push_text("\n");
         if let Some(place) = source.place {
             self.statements.push(PrintedStatement {
                 first,
-                last: self.count,
+                last: self.lines,
                 name: name.to_owned(),
                 place,
             });
         }
     }
-}
 
-/// A text with the sources of its statements.
-pub struct PrintedText<'g> {
-    /// The text.
-    pub text: String,
-    /// Statements of the entry point that have a source, in order.
-    pub statements: Vec<PrintedStatement<'g>>,
-}
-
-impl PrintedText<'_> {
-    /// Puts lines in front of the text.
-    pub fn prepend(&mut self, lines: &str) {
-        self.text.insert_str(0, lines);
-        let count = line_count(lines);
+    /// Adds whole lines.
+    pub fn append(&mut self, lines: &PrintedText<'g>) {
+        let before = self.lines;
+        self.push_text(&lines.text);
         self.statements
-            .iter_mut()
-            .for_each(|statement| statement.move_down(count));
+            .extend(lines.statements.iter().map(|statement| PrintedStatement {
+                first: statement.first + before,
+                last: statement.last + before,
+                ..statement.clone()
+            }));
     }
-}
-
-/// Number of line breaks in a text.
-pub fn line_count(text: &str) -> u32 {
-    text.bytes().filter(|byte| *byte == b'\n').count() as u32
 }

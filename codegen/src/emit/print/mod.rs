@@ -13,7 +13,6 @@ mod wgsl;
 
 use super::ast::{Builtin, Effect, Expr, Function, Module, Op, Source, Stmt, StmtKind, Ty, VarId};
 use super::text::{Binds, Text, wrapped_comment};
-use lines::{Lines, line_count};
 use straightline_evaluator::ir::{self, Scalar, Span, UnaryOp};
 
 pub use glsl::{Glsl, LOOSE_REGION};
@@ -146,14 +145,14 @@ pub struct Printed<'g> {
     /// The constants, and each function except the entry point.
     beside: Vec<String>,
     /// The entry point's statements.
-    body: Lines<'g>,
+    body: PrintedText<'g>,
 }
 
 impl<'g> Printed<'g> {
     /// Prints a module in a language.
     pub fn new(language: &dyn Language, module: &Module<'g>) -> Printed<'g> {
         let printer = Printer { language, module };
-        let mut body = Lines::default();
+        let mut body = PrintedText::default();
         printer.print_block(&module.body, 1, &mut body);
         Printed {
             beside: printer.tables_and_functions(),
@@ -163,28 +162,26 @@ impl<'g> Printed<'g> {
 
     /// Returns the whole text under a header, in the same language.
     pub fn with_header(&self, language: &dyn Language, header: &[String]) -> PrintedText<'g> {
-        let mut parts = self.beside.clone();
+        let mut out = PrintedText::default();
         let head = language.entry_head() + "\n";
-        let (before, head, behind) = match language.function_leads() {
-            true => {
-                let header: String = header.iter().map(|line| wrapped_comment(line, 4) + "\n").collect();
-                parts.extend(language.trailing_text());
-                (Vec::new(), format!("{head}{header}\n"), parts)
-            }
-            false => {
-                parts.insert(0, language.preamble(header));
-                (parts, head, Vec::new())
-            }
-        };
-        let mut text: String = before.iter().map(|part| format!("{part}\n")).collect();
-        text += &head;
-        let first = line_count(&text);
-        text += &self.body.text;
-        text += "}\n";
-        behind.iter().for_each(|part| text += &format!("\n{part}"));
-        let mut statements = self.body.statements.clone();
-        statements.iter_mut().for_each(|statement| statement.move_down(first));
-        PrintedText { text, statements }
+        if language.function_leads() {
+            out.push_text(&head);
+            header
+                .iter()
+                .for_each(|line| out.push_text(&(wrapped_comment(line, 4) + "\n")));
+            out.push_text("\n");
+        } else {
+            let before = std::iter::once(language.preamble(header)).chain(self.beside.iter().cloned());
+            before.for_each(|part| out.push_text(&(part + "\n")));
+            out.push_text(&head);
+        }
+        out.append(&self.body);
+        out.push_text("}\n");
+        if language.function_leads() {
+            let behind = self.beside.iter().cloned().chain(language.trailing_text());
+            behind.for_each(|part| out.push_text(&("\n".to_owned() + &part)));
+        }
+        out
     }
 }
 
@@ -249,12 +246,12 @@ impl<'g> Printer<'_, 'g> {
             "" => String::new(),
             text => format!("// {text}\n"),
         };
-        let mut body = Lines::default();
+        let mut body = PrintedText::default();
         self.print_block(&function.body, 1, &mut body);
         format!("{comment}{head}\n{}}}", body.text)
     }
 
-    fn print_block(&self, block: &[Stmt<'g>], depth: usize, out: &mut Lines<'g>) {
+    fn print_block(&self, block: &[Stmt<'g>], depth: usize, out: &mut PrintedText<'g>) {
         let mut rest = block;
         while let [stmt, behind @ ..] = rest {
             rest = behind;
@@ -282,11 +279,11 @@ impl<'g> Printer<'_, 'g> {
     }
 
     /// Adds a statement, with the directive of its line.
-    fn push(&self, out: &mut Lines<'g>, text: &str, source: Source<'g>, name: &str) {
+    fn push(&self, out: &mut PrintedText<'g>, text: &str, source: Source<'g>, name: &str) {
         if let Some(directive) = source.place.and_then(|place| self.language.line_directive(&place.span)) {
-            out.push(&directive, Source::default(), "");
+            out.push_statement(&directive, Source::default(), "");
         }
-        out.push(text, source, name);
+        out.push_statement(text, source, name);
     }
 
     /// Prints a write to memory; `before` receives the old value.
@@ -303,7 +300,7 @@ impl<'g> Printer<'_, 'g> {
         format!("{}{before}{value}{behind}", " ".repeat(indent))
     }
 
-    fn print_statement(&self, stmt: &Stmt<'g>, depth: usize, out: &mut Lines<'g>) {
+    fn print_statement(&self, stmt: &Stmt<'g>, depth: usize, out: &mut PrintedText<'g>) {
         let indent = "    ".repeat(depth);
         let l = self.language;
         let set = |before: &str, value: &Expr| Self::line(depth, &format!("{before} = "), &self.print_expr(value), ";");
@@ -415,7 +412,7 @@ impl<'g> Printer<'_, 'g> {
                     last = otherwise;
                 }
                 if !last.is_empty() {
-                    out.push(&format!("{indent}}} else {{"), Source::default(), "");
+                    out.push_statement(&format!("{indent}}} else {{"), Source::default(), "");
                     self.print_block(last, depth + 1, out);
                 }
                 format!("{indent}}}")
