@@ -1,5 +1,5 @@
 //! Compilation of emitted text by compilers independent of naga: Tint for WGSL, if it is on the path; glslang for GLSL;
-//! glslang and DXC for HLSL; spirv-val for SPIR-V. MSL is not checked.
+//! glslang and DXC for HLSL; spirv-val for SPIR-V, whose lines spirv-cross reads. MSL is not checked.
 
 #![allow(dead_code)] // each test uses a part
 

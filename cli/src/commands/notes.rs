@@ -9,8 +9,7 @@ const MANY_ALIVE: u32 = 64;
 /// Copies of a loop's body above which an unroll factor was probably meant for fewer loops.
 const MANY_COPIES: u64 = 64;
 
-/// Copies of a loop's body, and their operations, from which the loop is better left in the shader: generators and drivers
-/// take seconds for such a text.
+/// Copies of a loop's body, and their operations, from which unrolling was probably not meant.
 const LONG_LOOP: (u64, u64) = (32, 5000);
 
 /// Returns the remarks on a compiled kernel, one line each.

@@ -1,9 +1,9 @@
 //! Notes on kernels without errors: sums whose order of operations matters, uniforms that look like coordinates, and loops
 //! that are unrolled to very many operations.
 
-use super::super::notes::long_loop;
 use super::message;
 use crate::args::MessageFormat;
+use crate::commands::notes::long_loop;
 use straightline_codegen::diagnostic::{Diagnostic, Errors, File, Span};
 use straightline_codegen::{Compiled, Kernel};
 
