@@ -31,6 +31,11 @@ pub struct Output {
     /// Type of the value, a number or a vector. Components of the texel that it lacks are 0, and the fourth is 1.
     #[serde(rename = "type", default = "colour", skip_serializing_if = "is_colour")]
     pub ty: ValueType,
+    /// Width and height of the texels that a workgroup writes, of an output with a size of its own: a dispatch has as many
+    /// workgroups as the output that needs most of them. Without it, all outputs have one size, and each invocation writes
+    /// its block of their texels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tile: Option<[u32; 2]>,
 }
 
 fn colour() -> ValueType {

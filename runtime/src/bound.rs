@@ -1,5 +1,6 @@
 //! A pass with all that it reads and writes, ready to be recorded.
 
+use crate::inputs::texture_size;
 use crate::layout::BoundGroup;
 use crate::pipeline::Pipeline;
 use crate::plan::Plan;
@@ -58,7 +59,11 @@ impl Work {
         match pipeline {
             Pipeline::Compute { pipeline, workgroup } => Work::Compute {
                 pipeline: pipeline.clone(),
-                workgroups: [0, 1].map(|axis| rectangle.size[axis].div_ceil(workgroup[axis] * plan.block[axis])),
+                workgroups: plan
+                    .workgroups_of_tiles(targets.iter().map(|target| texture_size(target.texture())))
+                    .unwrap_or_else(|| {
+                        [0, 1].map(|axis| rectangle.size[axis].div_ceil(workgroup[axis] * plan.block[axis]))
+                    }),
             },
             Pipeline::Render(pipeline) => Work::Draw {
                 pipeline: pipeline.clone(),

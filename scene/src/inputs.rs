@@ -57,6 +57,8 @@ pub struct Inputs {
     pub buffers: Vec<(String, Vec<[f64; 4]>)>,
     /// Lanes of uniforms; one that is not named keeps its default.
     pub uniforms: Vec<(String, Vec<f64>)>,
+    /// Sizes of the pictures of a pass that draws several of unlike sizes.
+    pub target_sizes: Vec<(String, UVec2)>,
 }
 
 impl Inputs {

@@ -1,7 +1,7 @@
 //! The interpreter, on all processors.
 
 use super::{Address, Comparison, ExecuteError, Inputs, SamplerState, Written, find_entry};
-use glam::Vec4;
+use glam::{UVec2, Vec4};
 use rayon::prelude::*;
 use std::sync::OnceLock;
 use straightline_codegen::Compiled;
@@ -106,10 +106,12 @@ pub fn interpret_kernel<R: Real>(
             compiled.kernel
         )));
     }
-    let [width, height] = inputs.size.to_array();
+    let image_sizes = image_sizes(compiled, inputs)?;
+    let [width, height] = frame_of(compiled, &image_sizes).unwrap_or(inputs.size.to_array());
     let frame = [width, height];
     let interpreter = Interpreter::<R>::in_precision(&compiled.graph, &compiled.schedule, frame, &bindings)
-        .map_err(|e| ExecuteError::Input(e.to_string()))?;
+        .map_err(|e| ExecuteError::Input(e.to_string()))?
+        .with_image_sizes(image_sizes.clone());
     let interpreter = if watch {
         interpreter.track_non_finite()
     } else {
@@ -183,9 +185,13 @@ pub fn interpret_kernel<R: Real>(
     let given = (0..names.len()).map(|k| rows.iter().flat_map(|row| &row.targets[k]).copied().collect());
     let images = (0..compiled.graph.images.len()).map(|k| interpreter.image_contents(k, &last));
     let pictures = compiled.graph.written_targets().zip(given.chain(images));
-    let targets = pictures.map(|(picture, texels)| Written {
+    let sizes = names
+        .iter()
+        .map(|_| inputs.size)
+        .chain(image_sizes.iter().map(|size| UVec2::from_array(*size)));
+    let targets = pictures.zip(sizes).map(|((picture, texels), size)| Written {
         name: picture.name.clone(),
-        size: inputs.size,
+        size,
         texels,
     });
     let targets = targets.collect();
@@ -198,6 +204,30 @@ pub fn interpret_kernel<R: Real>(
         not_finite: non_finite_origins.first().cloned(),
         non_finite_origins,
     })
+}
+
+/// Sizes of the images that a kernel writes at any place: those of the frame, or their own.
+fn image_sizes(compiled: &Compiled, inputs: &Inputs) -> Result<Vec<[u32; 2]>, ExecuteError> {
+    let each = compiled.graph.images.iter().map(|image| match image.tile {
+        None => Ok(inputs.size.to_array()),
+        Some(_) => {
+            let size = find_entry(&inputs.target_sizes, &image.name);
+            let size = size.ok_or_else(|| ExecuteError::Input(format!("the picture `{}` has no size", image.name)));
+            size.map(|size| size.to_array())
+        }
+    });
+    each.collect()
+}
+
+/// Width and height in threads of a kernel whose images have tiles. `None` of one with a frame.
+fn frame_of(compiled: &Compiled, image_sizes: &[[u32; 2]]) -> Option<[u32; 2]> {
+    let threads = compiled.graph.invocation.tile_size();
+    let mut most = None;
+    for (image, size) in compiled.graph.images.iter().zip(image_sizes) {
+        let (tile, before) = (image.tile?, most.unwrap_or([1, 1]));
+        most = Some([0, 1].map(|axis| size[axis].div_ceil(tile[axis]).max(before[axis])));
+    }
+    most.map(|groups| [0, 1].map(|axis| groups[axis] * threads[axis]))
 }
 
 /// A sampler's state as the interpreter takes it.

@@ -102,6 +102,7 @@ impl Resources {
             view_dimension: ViewDimension::D2,
             format: output.format,
             ty: value_type(output.ty),
+            tile: output.tile,
         });
         Ok(Manifest {
             schema: SCHEMA,

@@ -129,9 +129,10 @@ fn for_stage(compiled: &Compiled, stage: Stage) -> Result<Cow<'_, Compiled>, Ref
 }
 
 impl Compiled {
-    /// Texel formats of the kernel's targets; `colour` is that of three and four floats.
+    /// Texel formats of everything that the kernel writes, in the order of the shader's outputs; `colour` is that of three and
+    /// four floats.
     pub fn target_formats(&self, colour: Format) -> Vec<Format> {
-        let targets = self.graph.targets.iter();
+        let targets = self.graph.written_targets();
         targets
             .map(|target| outputs::BoundOutput::new(target, colour).format)
             .collect()

@@ -15,6 +15,8 @@ pub struct BoundOutput {
     pub format: Format,
     /// Binding number of a storage texture.
     pub binding: Option<u32>,
+    /// Width and height of the texels that a workgroup writes, of an output with a size of its own.
+    pub tile: Option<[u32; 2]>,
 }
 
 impl BoundOutput {
@@ -25,6 +27,7 @@ impl BoundOutput {
             ty: target.ty,
             format: texel_format(target.ty, colour),
             binding: None,
+            tile: target.tile,
         }
     }
 

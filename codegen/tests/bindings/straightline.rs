@@ -415,6 +415,7 @@ pub mod all {
                             name: Borrowed("destination"),
                             place: Some((0, 8)),
                             format: Format::Rgba32Float,
+                            tile: None,
                         },
                     ],
                 ),
@@ -921,6 +922,7 @@ pub mod tile {
                             name: Borrowed("destination"),
                             place: Some((1, 8)),
                             format: Format::Rgba16Float,
+                            tile: None,
                         },
                     ],
                 ),
@@ -1517,6 +1519,7 @@ pub mod graded {
                             name: Borrowed("destination"),
                             place: Some((0, 1)),
                             format: Format::Rgba32Float,
+                            tile: None,
                         },
                     ],
                 ),
@@ -1780,6 +1783,7 @@ pub mod drawn {
                             name: Borrowed("destination"),
                             place: None,
                             format: Format::Rgba16Float,
+                            tile: None,
                         },
                     ],
                 ),
@@ -1944,11 +1948,13 @@ pub mod several {
                             name: Borrowed("bright"),
                             place: None,
                             format: Format::Rgba16Float,
+                            tile: None,
                         },
                         OutputPlan {
                             name: Borrowed("level"),
                             place: None,
                             format: Format::R32Float,
+                            tile: None,
                         },
                     ],
                 ),
@@ -2206,6 +2212,7 @@ pub mod waiting {
                             name: Borrowed("destination"),
                             place: Some((0, 1)),
                             format: Format::Rgba16Float,
+                            tile: None,
                         },
                     ],
                 ),
@@ -2422,6 +2429,7 @@ pub mod faded {
                             name: Borrowed("destination"),
                             place: Some((0, 1)),
                             format: Format::Rgba32Float,
+                            tile: None,
                         },
                     ],
                 ),
@@ -2715,6 +2723,7 @@ pub mod sraa {
                             name: Borrowed("destination"),
                             place: Some((0, 2)),
                             format: Format::Rgba32Float,
+                            tile: None,
                         },
                     ],
                 ),
@@ -2887,6 +2896,7 @@ pub mod glow {
                                     name: Borrowed("destination"),
                                     place: Some((0, 3)),
                                     format: Format::Rgba32Float,
+                                    tile: None,
                                 },
                             ],
                         ),
@@ -2981,6 +2991,7 @@ pub mod glow {
                                     name: Borrowed("destination"),
                                     place: Some((0, 1)),
                                     format: Format::Rgba16Float,
+                                    tile: None,
                                 },
                             ],
                         ),
@@ -3071,6 +3082,194 @@ pub mod glow {
                 ("glow", &shaders::glow::SHADER),
                 ("glow_small", &shaders::glow_small::SHADER),
             ],
+        )
+    };
+}
+/// Two levels of a picture.
+///
+/// A chain of 1 passes: make it by `straightline_runtime::Chain::new(&device, &CHAIN, ..)`.
+#[allow(non_snake_case)]
+pub mod levels {
+    /// Shaders of the passes, each with its text, manifest and layout.
+    pub mod shaders {
+        /// Shader `levels_quarter_cascade`.
+        #[allow(dead_code)]
+        pub mod levels_quarter_cascade {
+            use straightline_runtime::wgpu;
+            /// The shader.
+            pub const WGSL: &str = include_str!("levels_quarter_cascade.wgsl");
+            /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+            pub const MANIFEST: &str = include_str!("levels_quarter_cascade.json");
+            /// Name of the entry point.
+            pub const ENTRY_POINT: &str = "levels_quarter_cascade";
+            /// Invocations in a workgroup.
+            pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
+            /// Layout of bind group 0, for a custom pipeline.
+            pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
+                label: Some("levels_quarter_cascade"),
+                entries: &[
+                    wgpu::BindGroupLayoutEntry {
+                        binding: 0,
+                        visibility: wgpu::ShaderStages::COMPUTE,
+                        ty: wgpu::BindingType::Texture {
+                            sample_type: wgpu::TextureSampleType::Float {
+                                filterable: false,
+                            },
+                            view_dimension: wgpu::TextureViewDimension::D2,
+                            multisampled: false,
+                        },
+                        count: None,
+                    },
+                    wgpu::BindGroupLayoutEntry {
+                        binding: 1,
+                        visibility: wgpu::ShaderStages::COMPUTE,
+                        ty: wgpu::BindingType::StorageTexture {
+                            access: wgpu::StorageTextureAccess::WriteOnly,
+                            format: wgpu::TextureFormat::Rgba32Float,
+                            view_dimension: wgpu::TextureViewDimension::D2,
+                        },
+                        count: None,
+                    },
+                    wgpu::BindGroupLayoutEntry {
+                        binding: 2,
+                        visibility: wgpu::ShaderStages::COMPUTE,
+                        ty: wgpu::BindingType::StorageTexture {
+                            access: wgpu::StorageTextureAccess::WriteOnly,
+                            format: wgpu::TextureFormat::Rgba32Float,
+                            view_dimension: wgpu::TextureViewDimension::D2,
+                        },
+                        count: None,
+                    },
+                ],
+            };
+            /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
+            pub static SHADER: straightline_runtime::Shader<'static> = {
+                use straightline_runtime::Shader;
+                use straightline_runtime::plan::{
+                    Borrowed, Dimension, Extent, Format, InputKind, InputPlan,
+                    OutputPlan, Plan, SampleType, StagePlan, TexturePlan,
+                };
+                Shader::generated(
+                    WGSL,
+                    0xcc38_481a_d7d3_a995,
+                    straightline_runtime::loops_end!(),
+                    Plan {
+                        kernel: Borrowed("levels_quarter_cascade"),
+                        entry_point: Borrowed("levels_quarter_cascade"),
+                        stage: StagePlan::Compute {
+                            workgroup: WORKGROUP_SIZE,
+                            fills_memory: true,
+                        },
+                        block: [1, 1],
+                        features: Borrowed(&[]),
+                        inputs: Borrowed(
+                            &[
+                                InputPlan {
+                                    name: Borrowed("color"),
+                                    group: 0,
+                                    binding: 0,
+                                    kind: InputKind::Texture(TexturePlan {
+                                        dimension: Dimension::D2,
+                                        sample_type: SampleType::Unfilterable,
+                                        components: 4,
+                                        layers: 1,
+                                        samples: 1,
+                                        extent: Extent::Any,
+                                    }),
+                                },
+                            ],
+                        ),
+                        uniforms: Borrowed(&[]),
+                        region: None,
+                        overrides: Borrowed(&[]),
+                        varyings: Borrowed(&[]),
+                        outputs: Borrowed(
+                            &[
+                                OutputPlan {
+                                    name: Borrowed("half"),
+                                    place: Some((0, 1)),
+                                    format: Format::Rgba32Float,
+                                    tile: Some([32, 32]),
+                                },
+                                OutputPlan {
+                                    name: Borrowed("quarter"),
+                                    place: Some((0, 2)),
+                                    format: Format::Rgba32Float,
+                                    tile: Some([16, 16]),
+                                },
+                            ],
+                        ),
+                    },
+                )
+            };
+        }
+    }
+    /// Passes and pictures of the chain as JSON, for other programs.
+    #[allow(dead_code)]
+    pub const PLAN: &str = include_str!("levels.chain.json");
+    /// The chain with its shaders: creating it parses nothing.
+    pub static CHAIN: straightline_runtime::ChainShaders = {
+        #[allow(unused_imports)]
+        use straightline_runtime::plan::{
+            Borrowed, CHAIN_SCHEMA, ChainPlan, Format, PassPlan, PicturePlan, ReadPlan,
+            SizeOp, SizeRule, SizeTerm,
+        };
+        straightline_runtime::ChainShaders::generated(
+            ChainPlan {
+                schema: CHAIN_SCHEMA,
+                chain: Borrowed("levels"),
+                inputs: Borrowed(&[Borrowed("color")]),
+                pictures: Borrowed(
+                    &[
+                        PicturePlan {
+                            name: Borrowed("half"),
+                            size: SizeRule(
+                                Borrowed(
+                                    &[
+                                        SizeTerm::Of(Borrowed("color")),
+                                        SizeTerm::Number([2, 2]),
+                                        SizeTerm::Apply(SizeOp::Div),
+                                    ],
+                                ),
+                            ),
+                            format: Format::Rgba32Float,
+                            memory: None,
+                        },
+                        PicturePlan {
+                            name: Borrowed("quarter"),
+                            size: SizeRule(
+                                Borrowed(
+                                    &[
+                                        SizeTerm::Of(Borrowed("color")),
+                                        SizeTerm::Number([4, 4]),
+                                        SizeTerm::Apply(SizeOp::Div),
+                                    ],
+                                ),
+                            ),
+                            format: Format::Rgba32Float,
+                            memory: None,
+                        },
+                    ],
+                ),
+                passes: Borrowed(
+                    &[
+                        PassPlan {
+                            name: Borrowed("half"),
+                            shader: Borrowed("levels_quarter_cascade"),
+                            reads: Borrowed(
+                                &[
+                                    ReadPlan {
+                                        name: Borrowed("color"),
+                                        from: Borrowed("color"),
+                                    },
+                                ],
+                            ),
+                            writes: Borrowed(&[Borrowed("half"), Borrowed("quarter")]),
+                        },
+                    ],
+                ),
+            },
+            &[("levels_quarter_cascade", &shaders::levels_quarter_cascade::SHADER)],
         )
     };
 }

@@ -64,6 +64,7 @@ impl Evaluator<'_> {
         images.push(OutputTarget {
             name: name.to_owned(),
             ty,
+            tile: None,
         });
         Ok(Value::Image(images.len() as u32 - 1))
     }

@@ -24,7 +24,7 @@ impl Evaluator<'_> {
             };
             let name = self.output_name(&name, &targets);
             let ty = self.ty(id);
-            targets.push(OutputTarget { name, ty });
+            targets.push(OutputTarget { name, ty, tile: None });
             results.push(id);
         }
         let written = targets.len() + self.builder.graph().images.len();

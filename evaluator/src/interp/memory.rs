@@ -64,7 +64,7 @@ pub struct Memories {
 
 impl Memories {
     /// As they are before the first invocation.
-    pub fn new(graph: &Graph, buffers: &[Vec<Cells>], frame: [u32; 2]) -> Memories {
+    pub fn new(graph: &Graph, buffers: &[Vec<Cells>], image_sizes: &[[u32; 2]]) -> Memories {
         let written = graph.buffers.iter().zip(buffers);
         let written = written.map(|(buffer, elements)| match buffer.access {
             Access::Read => Vec::new(),
@@ -77,7 +77,10 @@ impl Memories {
                 .iter()
                 .map(|s| vec![Element::default(); s.len as usize])
                 .collect(),
-            images: vec![vec![None; (frame[0] * frame[1]) as usize]; graph.images.len()],
+            images: image_sizes
+                .iter()
+                .map(|[width, height]| vec![None; (width * height) as usize])
+                .collect(),
             names: graph.shared.iter().map(|s| s.name.clone()).collect(),
             ..Memories::default()
         }

@@ -26,6 +26,8 @@ pub struct Interpreter<'a, R: Real = f32> {
     graph: &'a Graph,
     schedule: &'a Schedule,
     frame: [u32; 2],
+    /// Width and height of each image.
+    image_sizes: Vec<[u32; 2]>,
     textures: Vec<Option<&'a dyn Texels>>,
     samplers: Vec<SamplerState>,
     buffers: Vec<Vec<Cells>>,
@@ -143,6 +145,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             graph,
             schedule,
             frame,
+            image_sizes: vec![frame; graph.images.len()],
             textures: textures.collect(),
             samplers: samplers.collect(),
             buffers: buffers.collect(),
@@ -151,6 +154,12 @@ impl<'a, R: Real> Interpreter<'a, R> {
             watches: false,
             precision: PhantomData,
         })
+    }
+
+    /// Sets the sizes of images that have their own, in the order of [`Graph::images`]. Others have that of the frame.
+    pub fn with_image_sizes(mut self, sizes: Vec<[u32; 2]>) -> Self {
+        self.image_sizes = sizes;
+        self
     }
 
     /// Notes for each pixel where it first had a NaN or an infinity, see [`Scratch::non_finite_origin`].
@@ -186,7 +195,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
             _ => Vec::new(),
         };
         Scratch {
-            memory: Memories::new(self.graph, &self.buffers, self.frame),
+            memory: Memories::new(self.graph, &self.buffers, &self.image_sizes),
             threads,
             ..one
         }
@@ -274,7 +283,7 @@ impl<'a, R: Real> Interpreter<'a, R> {
         let Some(memory) = node.op.memory() else { return [0; 4] };
         let at = arg(1).map(|cell| cell as u32 as usize);
         let index = match memory {
-            Memory::Image(_) => at[1] * self.frame[0] as usize + at[0],
+            Memory::Image(k) => at[1] * self.image_sizes[k as usize][0] as usize + at[0],
             Memory::Buffer(_) | Memory::Shared(_) => at[0],
         };
         let holds = arg(0)[0] != 0;

@@ -74,6 +74,9 @@ pub struct OutputTarget {
     pub name: String,
     /// A float or integer, or a vector of them.
     pub ty: Type,
+    /// Width and height of the texels that a workgroup writes, of an image with a size of its own. `None` of one that has the
+    /// frame's size.
+    pub tile: Option<[u32; 2]>,
 }
 
 impl OutputTarget {
@@ -85,6 +88,7 @@ impl OutputTarget {
         OutputTarget {
             name: OutputTarget::DEFAULT_NAME.to_owned(),
             ty: Type::value(Scalar::F32, 4),
+            tile: None,
         }
     }
 }
@@ -204,7 +208,7 @@ pub struct Graph {
     pub textures: Vec<Texture>,
     /// Buffers, by the index that `Op::BufferLoad` carries.
     pub buffers: Vec<Buffer>,
-    /// Images of the frame's size that are written at any position, by the index that `Memory::Image` carries.
+    /// Images that are written at any position, by the index that `Memory::Image` carries.
     pub images: Vec<OutputTarget>,
     /// Workgroup memory, by the index that `Memory::Shared` carries.
     pub shared: Vec<SharedArray>,

@@ -9,7 +9,7 @@ pub enum Memory {
     Buffer(u32),
     /// Workgroup memory, by index into `Graph::shared`.
     Shared(u32),
-    /// An image of the frame's size, by index into `Graph::images`.
+    /// An image, by index into `Graph::images`.
     Image(u32),
 }
 

@@ -84,9 +84,14 @@ impl GraphParser {
             "texture" => self.texture(rest),
             "buffer" => self.buffer(rest),
             "image" => {
-                let (name, kind) = split_name(rest)?;
-                let ty = parse_type(kind)?;
-                self.graph.images.push(OutputTarget { name, ty });
+                let (name, rest) = split_name(rest)?;
+                let (ty, tile) = match rest.split_whitespace().collect::<Vec<_>>()[..] {
+                    [ty] => (ty, None),
+                    [ty, "tile", width, height] => (ty, Some([parse_number(width)?, parse_number(height)?])),
+                    _ => return Err("an image is `image NAME: TYPE`, and `tile WIDTH HEIGHT`".to_owned()),
+                };
+                let ty = parse_type(ty)?;
+                self.graph.images.push(OutputTarget { name, ty, tile });
                 Ok(())
             }
             "shared" => self.shared(rest),
@@ -106,7 +111,7 @@ impl GraphParser {
             "target" => {
                 let (name, kind) = split_name(rest)?;
                 let ty = parse_type(kind)?;
-                self.graph.targets.push(OutputTarget { name, ty });
+                self.graph.targets.push(OutputTarget { name, ty, tile: None });
                 Ok(())
             }
             "invocation" => self.invocation(rest),

@@ -72,7 +72,8 @@ fn print_tables(graph: &Graph) -> String {
         let _ = writeln!(text, "buffer {}: {}{access}", b.name, element);
     }
     for image in &graph.images {
-        let _ = writeln!(text, "image {}: {}", image.name, image.ty);
+        let tile = image.tile.map(|[width, height]| format!(" tile {width} {height}"));
+        let _ = writeln!(text, "image {}: {}{}", image.name, image.ty, tile.unwrap_or_default());
     }
     for s in &graph.shared {
         let how = match (s.atomic, s.filled) {

@@ -266,12 +266,14 @@ fn every_rule_is_checked() {
             g.targets.push(OutputTarget {
                 name: "k".to_owned(),
                 ty: Type::I32,
+                tile: None,
             })
         }),
         ("the target k is of no numbers", |g| {
             g.targets[0] = OutputTarget {
                 name: "k".to_owned(),
                 ty: Type::BOOL,
+                tile: None,
             }
         }),
         ("the target destination is of no numbers, or there are two of it", |g| {

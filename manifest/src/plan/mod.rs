@@ -199,6 +199,24 @@ pub struct OutputPlan {
     pub place: Option<(u32, u32)>,
     /// Format that the shader was generated for.
     pub format: Format,
+    /// Width and height of the texels that a workgroup writes, of an output with a size of its own.
+    pub tile: Option<[u32; 2]>,
+}
+
+impl Plan {
+    /// Returns the workgroups that a dispatch needs for outputs of these `sizes`, across and down, if the outputs have sizes of
+    /// their own.
+    pub fn workgroups_of_tiles(&self, sizes: impl IntoIterator<Item = [u32; 2]>) -> Option<[u32; 2]> {
+        let mut most = None;
+        for (output, size) in self.outputs.iter().zip(sizes) {
+            let (tile, [across, down]) = (output.tile?, most.unwrap_or([1, 1]));
+            most = Some([
+                across.max(size[0].div_ceil(tile[0])),
+                down.max(size[1].div_ceil(tile[1])),
+            ]);
+        }
+        most
+    }
 }
 
 impl OverridePlan {

@@ -316,10 +316,20 @@ fn plan_output(manifest: &Manifest, output: &Output, location: u32) -> Result<Ou
             None
         }
     };
+    if let Some(tile) = output.tile {
+        require(manifest.stage == Stage::Compute, || {
+            "the stage is fragment, but a tile is given".to_owned()
+        })?;
+        require(!tile.contains(&0), || "a tile has no texels".to_owned())?;
+        require(manifest.outputs.iter().all(|other| other.tile.is_some()), || {
+            "it has a tile, and another output has none".to_owned()
+        })?;
+    }
     Ok(OutputPlan {
         name: output.name.clone().into(),
         place,
         format: output.format,
+        tile: output.tile,
     })
 }
 

@@ -207,10 +207,23 @@ impl Step {
             .writes
             .iter()
             .map(|name| picture(name).ok_or_else(|| wrong(format!("writes `{name}`, which is no picture"))));
+        let writes: Vec<usize> = writes.collect::<Result<_, _>>()?;
+        let has_tiles = shader.outputs.iter().all(|output| output.tile.is_some());
+        let other = writes.iter().map(|picture| &plan.pictures[*picture]);
+        let other = other
+            .clone()
+            .zip(other.skip(1))
+            .find(|(first, next)| first.size != next.size);
+        if let (Some((first, next)), false) = (other, has_tiles) {
+            return Err(wrong(format!(
+                "writes `{}` and `{}`, of unlike sizes, by a shader whose outputs have one size",
+                first.name, next.name
+            )));
+        }
         Ok(Step {
             shader: number,
             reads: reads.collect::<Result<_, _>>()?,
-            writes: writes.collect::<Result<_, _>>()?,
+            writes,
             computes: matches!(shader.stage, crate::plan::StagePlan::Compute { .. }),
         })
     }

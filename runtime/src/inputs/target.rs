@@ -7,7 +7,7 @@ use crate::plan::{Plan, StagePlan};
 use straightline_manifest::Dimension;
 use wgpu::{TextureFormat, TextureUsages, TextureView};
 
-/// Checks `targets` against the stage: usage, format, shape, that all have one size, and for compute that one dispatch can
+/// Checks `targets` against the stage: usage, format, shape, that all without tiles have one size, and for compute that one dispatch can
 /// cover it. `formats` are those that the pipeline writes.
 pub(crate) fn check_targets(
     plan: &Plan,
@@ -16,8 +16,8 @@ pub(crate) fn check_targets(
     targets: &[&TextureView],
 ) -> Result<(), Error> {
     for (k, (view, format)) in targets.iter().zip(formats).enumerate() {
-        let checked =
-            check_target(plan, *format, abilities, view).and_then(|()| check_against_earlier(plan, targets, k));
+        let checked = check_target((plan, plan.outputs[k].tile), *format, abilities, view)
+            .and_then(|()| check_against_earlier(plan, targets, k));
         checked.map_err(|problem| Error::Target {
             kernel: plan.kernel.to_string(),
             name: plan.target_name(k),
@@ -30,7 +30,7 @@ pub(crate) fn check_targets(
 /// Checks a target against those before it.
 fn check_against_earlier(plan: &Plan, targets: &[&TextureView], k: usize) -> Result<(), ViewProblem> {
     let [own, first] = [k, 0].map(|k| texture_size(targets[k].texture()));
-    if own != first {
+    if own != first && plan.outputs[k].tile.is_none() {
         return Err(ViewProblem::TargetSize { size: own, first });
     }
     // Two views of a texture of one image show the same; of others only wgpu knows which part a view shows.
@@ -45,8 +45,9 @@ fn check_against_earlier(plan: &Plan, targets: &[&TextureView], k: usize) -> Res
     }
 }
 
+/// Checks a target of `plan`, of which a workgroup writes a `tile` if it has a size of its own.
 fn check_target(
-    plan: &Plan,
+    (plan, tile): (&Plan, Option<[u32; 2]>),
     format: TextureFormat,
     abilities: &Abilities,
     target: &TextureView,
@@ -65,11 +66,12 @@ fn check_target(
                 });
             }
             check_usage(texture, TextureUsages::STORAGE_BINDING, "STORAGE_BINDING")?;
-            for (size, workgroup) in texture_size(texture).into_iter().zip(workgroup) {
-                if size.div_ceil(workgroup) > abilities.max_workgroups {
+            let written = tile.unwrap_or([workgroup[0], workgroup[1]]);
+            for (size, written) in texture_size(texture).into_iter().zip(written) {
+                if size.div_ceil(written) > abilities.max_workgroups {
                     return Err(ViewProblem::TooLarge {
                         size,
-                        max: abilities.max_workgroups.saturating_mul(workgroup),
+                        max: abilities.max_workgroups.saturating_mul(written),
                     });
                 }
             }

@@ -94,6 +94,7 @@ mod generated {
                 name: Borrowed("output"),
                 place: None,
                 format: Format::Rgba32Float,
+                tile: None,
             }]),
         },
     );

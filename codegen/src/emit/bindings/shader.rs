@@ -275,13 +275,22 @@ fn quote_varying(varying: &VaryingPlan) -> TokenStream {
 }
 
 fn quote_output(output: &OutputPlan) -> TokenStream {
-    let OutputPlan { name, place, format } = output;
+    let OutputPlan {
+        name,
+        place,
+        format,
+        tile,
+    } = output;
     let place = quote_option(place.map(|(group, binding)| {
         let [group, binding] = [group, binding].map(Literal::u32_unsuffixed);
         quote! { (#group, #binding) }
     }));
+    let tile = quote_option(tile.map(|sides| {
+        let [width, height] = sides.map(Literal::u32_unsuffixed);
+        quote! { [#width, #height] }
+    }));
     let format = variant_name(format);
-    quote! { OutputPlan { name: Borrowed(#name), place: #place, format: Format::#format } }
+    quote! { OutputPlan { name: Borrowed(#name), place: #place, format: Format::#format, tile: #tile } }
 }
 
 fn value_type(ty: ValueType) -> TokenStream {

@@ -11,6 +11,9 @@ const IVEC2: Type = Type::value(Scalar::I32, 2);
 /// Purpose of the first statements of a shader whose workgroups share texels.
 const TILES: &str = "Texels of the workgroup's pixels and of those around: each thread reads some of them.";
 
+/// Purpose of the first statements of a shader whose workgroups compute several pictures.
+const PICTURES: &str = "Each thread computes texels of a picture, which the others read for the next one.";
+
 /// Creates a module with the entry point's variables.
 pub fn entry_module<'g>() -> Module<'g> {
     let pairs = ["pixel", "frame", "within", "place", "origin"].map(|name| (name, IVEC2));
@@ -38,7 +41,9 @@ pub fn wrap_entry_point(module: &mut Module<'_>, resources: &Resources) {
         .partition(|stmt| matches!(stmt.kind, StmtKind::Output(_)));
     let begun = body.len();
     if resources.shared_memory().any(|shared| shared.filled) {
-        body.push(StmtKind::Comment(TILES.to_owned()).into());
+        let has_pictures = resources.outputs.iter().any(|output| output.tile.is_some());
+        let purpose = if has_pictures { PICTURES } else { TILES };
+        body.push(StmtKind::Comment(purpose.to_owned()).into());
     }
     if resources.options.counts_from_below() {
         stored_from_below(&mut kernel);
