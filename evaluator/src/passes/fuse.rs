@@ -3,16 +3,14 @@
 //! Tests: `tests/tests/language/chains.rs` compares fused chains with stored ones and with rustc.
 
 use super::fold::Exact;
+use super::inline::{Maps, Pixel, add_sized, inline_texel, size_node, with_components};
 use crate::ir::{
-    BinaryOp, Builder, Graph, Invocation, NodeId, Op, Rebuild, Replace, Rules, Scalar, Texture, TextureKind, Type,
-    rebuild_graph, rebuild_replacing,
+    Builder, Graph, Invocation, NodeId, Op, Rebuild, Replace, Rules, Scalar, Texture, TextureKind, Type, rebuild_graph,
+    rebuild_replacing,
 };
-use crate::limits;
 use rustc_hash::FxHashMap;
-use std::cell::RefCell;
 use std::fmt;
-use std::sync::Arc;
-use straightline_manifest::chain::{BadRule, SizeOp, SizeRule, SizeTerm};
+use straightline_manifest::chain::{SizeRule, SizeTerm};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
 
@@ -161,18 +159,6 @@ pub fn frame_textures(graph: &Graph, is_framed: &dyn Fn(&str) -> bool) -> Graph 
     made
 }
 
-/// Indices of the producer's tables in those of the fused kernel.
-#[derive(Default)]
-struct Maps {
-    textures: Vec<u32>,
-    samplers: Vec<u32>,
-    buffers: Vec<u32>,
-    uniforms: Vec<u32>,
-    overrides: Vec<u32>,
-    tallies: Vec<u32>,
-    files: Vec<u32>,
-}
-
 struct Fuse<'g> {
     consumer: &'g Graph,
     drawn: &'g Drawn<'g>,
@@ -186,52 +172,18 @@ struct Fuse<'g> {
 
 impl Replace for Fuse<'_> {
     fn add_prologue(&mut self, builder: &mut Builder<'_>) {
-        let producer = self.drawn.graph;
         let graph = builder.graph_mut();
-        self.maps = Maps {
-            textures: merge(&mut graph.textures, &producer.textures, |a, b| a.name == b.name),
-            samplers: merge(&mut graph.samplers, &producer.samplers, |a, b| a.name == b.name),
-            buffers: merge(&mut graph.buffers, &producer.buffers, |a, b| a.name == b.name),
-            uniforms: merge(&mut graph.uniforms, &producer.uniforms, |a, b| a.name == b.name),
-            overrides: merge(&mut graph.overrides, &producer.overrides, |a, b| a.id == b.id),
-            tallies: merge(&mut graph.tallies, &producer.tallies, |a, b| a == b),
-            files: merge(&mut graph.files, &producer.files, |a, b| a == b),
-        };
-        for (of, index) in producer.textures.iter().zip(&self.maps.textures) {
-            let texture = &mut graph.textures[*index as usize];
-            texture.components = texture.components.max(of.components);
+        let known = graph.textures.len();
+        self.maps = Maps::merged(graph, self.drawn.graph, &|_| false);
+        for (of, index) in self.drawn.graph.textures.iter().zip(&self.maps.textures) {
             // A frame of the producer has the picture's size, which the consumer's frame may not have.
-            let known = self.consumer.textures.get(*index as usize);
-            texture.framed = known.map_or(of.framed && self.drawn.size.is_none(), |known| known.framed);
-        }
-        if let Some(rule) = self.drawn.size {
-            let named = |texture: &&Texture| {
-                rule.0
-                    .iter()
-                    .any(|term| *term == SizeTerm::Of(texture.name.clone().into()))
-            };
-            for texture in self.drawn.sized.iter().filter(named) {
-                if graph.textures.iter().all(|known| known.name != texture.name) {
-                    let framed = false;
-                    graph.textures.push(Texture {
-                        framed,
-                        ..texture.clone()
-                    });
-                }
+            if let Some(index) = index.filter(|index| *index as usize >= known) {
+                graph.textures[index as usize].framed = of.framed && self.drawn.size.is_none();
             }
         }
-        for (of, index) in producer.samplers.iter().zip(&self.maps.samplers) {
-            graph.samplers[*index as usize].filters |= of.filters;
+        if let Some(rule) = self.drawn.size {
+            add_sized(graph, rule, self.drawn.sized);
         }
-        let mut purposes = graph.purposes.to_vec();
-        purposes.extend(producer.purposes.iter().map(|purpose| {
-            let mut purpose = purpose.clone();
-            purpose.file = self.maps.files[purpose.file as usize];
-            purpose
-        }));
-        purposes.sort();
-        purposes.dedup();
-        graph.purposes = Arc::from(purposes);
     }
 
     fn replace_node(&mut self, builder: &mut Builder<'_>, old: NodeId, new: &[Option<NodeId>]) -> Option<NodeId> {
@@ -245,7 +197,7 @@ impl Replace for Fuse<'_> {
                 let texel = self.texel(builder, coordinate);
                 Some(with_components(builder, texel, node.ty))
             }
-            Op::TextureSize(_) => Some(self.picture_size(builder)),
+            Op::TextureSize(_) => Some(picture_size(builder, self.drawn.size)),
             Op::TextureLevels(_) => Some(builder.i32(1)),
             _ => None,
         }
@@ -258,144 +210,29 @@ impl Fuse<'_> {
         if let Some(texel) = self.texels.get(&coordinate) {
             return *texel;
         }
-        let producer = self.drawn.graph;
-        let mut made: Vec<NodeId> = Vec::with_capacity(producer.nodes.len());
-        for id in producer.node_ids() {
-            self.too_large |= limits::exceeded_limit(builder.graph().nodes.len()).is_some();
-            if self.too_large {
-                return builder.constant(producer.targets[0].ty, [0; 4]);
-            }
-            let node = producer.node(id);
-            let args: Vec<NodeId> = node.args.iter().map(|arg| made[arg.0 as usize]).collect();
-            let copy = match &node.op {
-                Op::Pixel => coordinate,
-                Op::FrameSize => self.picture_size(builder),
-                Op::Extract(0) if builder.graph().ty(args[0]) == node.ty => args[0],
-                op => {
-                    let op = self.mapped(op);
-                    let ty = match (&op, op.texture()) {
-                        (Op::Load { .. } | Op::Sample { .. }, Some(texture)) => {
-                            builder.graph().textures[texture as usize].texel_type()
-                        }
-                        _ => node.ty,
-                    };
-                    match op {
-                        Op::Const(_) => builder.intern(op, args, ty),
-                        op => builder.add(op, args, ty),
-                    }
-                }
-            };
-            let file = |of: u32| self.maps.files.get(of as usize).copied().unwrap_or(of);
-            builder.place_nodes(|| {
-                let mut place = producer.place(id)?.clone();
-                place.span.file = file(place.span.file);
-                Some(place)
-            });
-            if let Some(origin) = producer.origin(id) {
-                let mut origin = origin.clone();
-                origin.file = file(origin.file);
-                if copy != coordinate {
-                    builder.set_origin(copy, &origin);
-                }
-            }
-            made.push(copy);
-        }
-        let texel = made[producer.outputs()[0].0 as usize];
-        self.texels.insert(coordinate, texel);
-        texel
-    }
-
-    /// An operation of the producer on the tables of the fused kernel.
-    fn mapped(&self, op: &Op) -> Op {
-        let mut op = op.clone();
-        let maps = &self.maps;
-        match &mut op {
-            Op::Load { texture, .. }
-            | Op::TextureSize(texture)
-            | Op::TextureLevels(texture)
-            | Op::TextureLayers(texture) => {
-                *texture = maps.textures[*texture as usize];
-            }
-            Op::Sample { texture, sampler, .. }
-            | Op::Gather { texture, sampler, .. }
-            | Op::Compare { texture, sampler, .. }
-            | Op::GatherCompare { texture, sampler, .. } => {
-                *texture = maps.textures[*texture as usize];
-                *sampler = maps.samplers[*sampler as usize];
-            }
-            Op::BufferLen(buffer) | Op::BufferLoad { buffer, .. } => *buffer = maps.buffers[*buffer as usize],
-            Op::Uniform(uniform) => *uniform = maps.uniforms[*uniform as usize],
-            Op::Override(of) => *of = maps.overrides[*of as usize],
-            Op::Tally(tally) => *tally = maps.tallies[*tally as usize],
-            _ => {}
-        }
-        op
-    }
-
-    /// Width and height of the picture.
-    fn picture_size(&self, builder: &mut Builder<'_>) -> NodeId {
-        match self.drawn.size {
-            None => builder.add(Op::FrameSize, [], PAIR),
-            Some(rule) => size_node(builder, rule),
-        }
-    }
-}
-
-/// A size by its rule, in the sizes of textures that the graph has.
-fn size_node(builder: &mut Builder<'_>, rule: &SizeRule) -> NodeId {
-    let builder = RefCell::new(builder);
-    let number = |[x, y]: [u32; 2]| builder.borrow_mut().constant(PAIR, [x, y, 0, 0]);
-    let of = |name: &str| {
-        let mut builder = builder.borrow_mut();
-        let textures = &builder.graph().textures;
-        let index = textures.iter().position(|texture| texture.name == name);
-        let index = index.ok_or_else(|| BadRule(format!("no texture `{name}`")))?;
-        let op = match textures[index].framed {
-            true => Op::FrameSize,
-            false => Op::TextureSize(index as u32),
+        let (drawn, maps) = (self.drawn, &self.maps);
+        let size = |builder: &mut Builder<'_>| picture_size(builder, drawn.size);
+        let pixel = Pixel {
+            coordinate,
+            size: &size,
         };
-        Ok(builder.add(op, [], PAIR))
-    };
-    let apply = |op: SizeOp, a: NodeId, b: NodeId| {
-        let op = match op {
-            SizeOp::Add => BinaryOp::Add,
-            SizeOp::Sub => BinaryOp::Sub,
-            SizeOp::Mul => BinaryOp::Mul,
-            SizeOp::Div => BinaryOp::Div,
-            SizeOp::Max => BinaryOp::Max,
-            SizeOp::Min => BinaryOp::Min,
-        };
-        builder.borrow_mut().add(Op::Binary(op), [a, b], PAIR)
-    };
-    let size = rule.fold(of, number, apply).expect("the textures were added before");
-    let builder = builder.into_inner();
-    let one = builder.constant(PAIR, [1, 1, 0, 0]);
-    builder.add(Op::Binary(BinaryOp::Max), [size, one], PAIR)
-}
-
-/// A texel with as many components as `ty` has, of one with at least as many.
-fn with_components(builder: &mut Builder<'_>, texel: NodeId, ty: Type) -> NodeId {
-    if builder.graph().ty(texel) == ty {
-        return texel;
-    }
-    let scalar = ty.scalar_kind().map_or(Type::F32, Type::scalar);
-    let parts: Vec<NodeId> = (0..ty.component_count())
-        .map(|k| builder.add(Op::Extract(k), [texel], scalar))
-        .collect();
-    match parts.as_slice() {
-        [only] => *only,
-        parts => builder.add(Op::Compose, parts, ty),
-    }
-}
-
-/// Appends what a table lacks, and returns the indices of all of it.
-fn merge<T: Clone>(table: &mut Vec<T>, other: &[T], same: impl Fn(&T, &T) -> bool) -> Vec<u32> {
-    let index = |of: &T, table: &mut Vec<T>| match table.iter().position(|known| same(known, of)) {
-        Some(index) => index as u32,
-        None => {
-            table.push(of.clone());
-            table.len() as u32 - 1
+        match inline_texel(builder, drawn.graph, maps, &pixel, &mut |_, _, _| None) {
+            Some(texel) => {
+                self.texels.insert(coordinate, texel);
+                texel
+            }
+            None => {
+                self.too_large = true;
+                builder.constant(drawn.graph.targets[0].ty, [0; 4])
+            }
         }
-    };
-    other.iter().map(|of| index(of, table)).collect()
+    }
+}
+
+/// Width and height of a picture; of one of the frame's size without a rule.
+fn picture_size(builder: &mut Builder<'_>, rule: Option<&SizeRule>) -> NodeId {
+    match rule {
+        None => builder.add(Op::FrameSize, [], PAIR),
+        Some(rule) => size_node(builder, rule),
+    }
 }

@@ -2,6 +2,7 @@
 //!
 //! A pass takes a graph and builds a new one. [`schedule_graph`] alone decides order and place.
 
+mod cascade;
 mod coordinates;
 mod count;
 mod edges;
@@ -12,6 +13,7 @@ mod fold;
 mod fuse;
 mod gathers;
 mod half;
+mod inline;
 mod lanes;
 pub mod narrow;
 mod offsets;
@@ -21,6 +23,7 @@ mod reads;
 mod schedule;
 mod tiles;
 
+pub use cascade::{Cascade, Part, Tile as CascadeTile, compute_cascade, plan_cascade};
 pub use coordinates::by_component;
 pub use count::{count_operations, layers_read};
 pub use exactness::{exact_places, mark_exact_ops};

@@ -1,8 +1,9 @@
 //! Lists of pictures.
 
 use super::refused;
+use super::signature::element_type;
 use super::state::{Known, Place, Walk};
-use super::syntax::{element_type, identifier, variable_of};
+use super::syntax::{identifier, variable_of};
 use super::value::Value;
 use crate::diagnostic::Diagnostic;
 use proc_macro2::Ident;

@@ -57,9 +57,33 @@ pub fn picture_type(ty: &syn::Type) -> Option<PictureType> {
     })
 }
 
-/// Returns whether a function returns pictures that it owns: one, or a tuple of them.
+/// Type of the elements of a list: of `Vec<T>`, `[T; N]` or `&[T]`.
+pub fn element_type(ty: &syn::Type) -> Option<syn::Type> {
+    match ty {
+        syn::Type::Array(array) => Some((*array.elem).clone()),
+        syn::Type::Slice(slice) => Some((*slice.elem).clone()),
+        syn::Type::Reference(inner) => element_type(&inner.elem),
+        syn::Type::Path(path) => {
+            let last = path.path.segments.last().filter(|last| last.ident == "Vec")?;
+            let syn::PathArguments::AngleBracketed(arguments) = &last.arguments else {
+                return None;
+            };
+            match arguments.args.first()? {
+                syn::GenericArgument::Type(ty) => Some(ty.clone()),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}
+
+/// Returns whether a function returns pictures that it owns: one, a list of them, or a tuple of these.
 pub fn returns_pictures(signature: &syn::Signature) -> bool {
-    let owned = |ty: &syn::Type| !matches!(ty, syn::Type::Reference(_)) && picture_type(ty).is_some();
+    let is_value = |ty: &syn::Type| !matches!(ty, syn::Type::Reference(_));
+    let is_picture = |ty: &syn::Type| is_value(ty) && picture_type(ty).is_some();
+    let owned = |ty: &syn::Type| {
+        is_picture(ty) || (is_value(ty) && element_type(ty).is_some_and(|element| is_picture(&element)))
+    };
     match &signature.output {
         syn::ReturnType::Type(_, ty) => match &**ty {
             syn::Type::Tuple(tuple) => !tuple.elems.is_empty() && tuple.elems.iter().all(owned),

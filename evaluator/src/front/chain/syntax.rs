@@ -38,26 +38,6 @@ pub fn variable_of(expr: &syn::Expr) -> Option<&Ident> {
     }
 }
 
-/// Type of the elements of a list: of `Vec<T>`, `[T; N]` or `&[T]`.
-pub fn element_type(ty: &syn::Type) -> Option<syn::Type> {
-    match ty {
-        syn::Type::Array(array) => Some((*array.elem).clone()),
-        syn::Type::Slice(slice) => Some((*slice.elem).clone()),
-        syn::Type::Reference(inner) => element_type(&inner.elem),
-        syn::Type::Path(path) => {
-            let last = path.path.segments.last().filter(|last| last.ident == "Vec")?;
-            let syn::PathArguments::AngleBracketed(arguments) = &last.arguments else {
-                return None;
-            };
-            match arguments.args.first()? {
-                syn::GenericArgument::Type(ty) => Some(ty.clone()),
-                _ => None,
-            }
-        }
-        _ => None,
-    }
-}
-
 /// Returns whether an operator assigns, as `+=` does.
 pub fn is_compound(op: &syn::BinOp) -> bool {
     std::mem::discriminant(&plain_operator(op)) != std::mem::discriminant(op)

@@ -135,6 +135,11 @@ impl Walk<'_> {
         if !self.errors.is_empty() {
             return;
         }
+        let each = results.into_iter().flat_map(|value| match value {
+            Value::Images(images) => images.into_iter().map(Value::Image).collect(),
+            other => vec![other],
+        });
+        let results: Vec<Value> = each.collect();
         for value in &results {
             let image = match value {
                 Value::Image(image) => &image.source,
