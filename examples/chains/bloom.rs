@@ -23,37 +23,36 @@ fn bright(color: Vec4, threshold: f32) -> Vec4 {
     color * ((light - threshold).max(0.0) / light.max(1.0e-4))
 }
 
-/// Position of a pixel in a picture of a size, 0 to 1.
-fn place(pixel: IVec2, size: UVec2) -> Vec2 {
-    (pixel.as_vec2() + 0.5) / size.as_vec2()
-}
-
-/// Half of a picture's size: the mean of 4x4 texels, by four reads.
-fn halve(from: &Texture<Vec4>, linear: &Sampler, pixel: IVec2) -> Vec4 {
-    let texel = 1.0 / from.size().as_vec2();
-    let uv = (pixel.as_vec2() * 2.0 + 1.0) * texel;
+/// Half of a picture's size: the mean of 4x4 texels.
+fn halve(from: &Texture<Vec4>, pixel: IVec2) -> Vec4 {
     let mut sum = Vec4::ZERO;
-    for corner in [vec2(-1.0, -1.0), vec2(1.0, -1.0), vec2(-1.0, 1.0), vec2(1.0, 1.0)] {
-        sum += from.sample(linear, uv + corner * texel);
-    }
-    sum / 4.0
-}
-
-/// A tent over 3x3 texels of a smaller picture.
-fn spread_out(from: &Texture<Vec4>, linear: &Sampler, uv: Vec2) -> Vec4 {
-    let texel = 1.0 / from.size().as_vec2();
-    let mut sum = Vec4::ZERO;
-    for y in -1..=1_i32 {
-        for x in -1..=1_i32 {
-            let weight = (2 - x.abs()) * (2 - y.abs());
-            sum += weight as f32 * from.sample(linear, uv + ivec2(x, y).as_vec2() * texel);
+    for y in -1..=2 {
+        for x in -1..=2 {
+            sum += from.load(pixel * 2 + ivec2(x, y));
         }
     }
     sum / 16.0
 }
 
+/// Weights of a quadratic B-spline a quarter of a texel from the middle one: of the farther neighbour, the middle, the nearer one.
+const SPLINE: [f32; 3] = [0.03125, 0.6875, 0.28125];
+
+/// Twice a picture's size, smoothly: 3x3 texels of it.
+fn spread_out(from: &Texture<Vec4>, pixel: IVec2) -> Vec4 {
+    // Direction of the nearer neighbour.
+    let side = (pixel % 2) * 2 - 1;
+    let mut sum = Vec4::ZERO;
+    for (y, above) in SPLINE.iter().enumerate() {
+        for (x, beside) in SPLINE.iter().enumerate() {
+            let step = (ivec2(x as i32, y as i32) - 1) * side;
+            sum += beside * above * from.load(pixel / 2 + step);
+        }
+    }
+    sum
+}
+
 /// Adds a glow around what is brighter than `threshold`.
-pub fn bloom(cfg: &Bloom, color: &Texture<Vec4>, linear: &Sampler, threshold: f32, strength: f32) -> Texture<Vec4> {
+pub fn bloom(cfg: &Bloom, color: &Texture<Vec4>, threshold: f32, strength: f32) -> Texture<Vec4> {
     let light: Texture<Vec4> = draw(color.size() / 2, |pixel| {
         let mut sum = Vec4::ZERO;
         for corner in [ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(1, 1)] {
@@ -64,19 +63,17 @@ pub fn bloom(cfg: &Bloom, color: &Texture<Vec4>, linear: &Sampler, threshold: f3
     let mut levels = vec![light];
     for k in 1..cfg.levels as usize {
         let from = &levels[k - 1];
-        let down: Texture<Vec4> = draw(from.size() / 2, |pixel| halve(from, linear, pixel));
+        let down: Texture<Vec4> = draw(from.size() / 2, |pixel| halve(from, pixel));
         levels.push(down);
     }
     let mut glow = levels.pop().unwrap();
     for level in levels.iter().rev() {
         let up: Texture<Vec4> = draw(level.size(), |pixel| {
-            let wide = spread_out(&glow, linear, place(pixel, level.size()));
-            level.load(pixel).lerp(wide, cfg.spread)
+            level.load(pixel).lerp(spread_out(&glow, pixel), cfg.spread)
         });
         glow = up;
     }
     draw(color.size(), |pixel| {
-        let wide = spread_out(&glow, linear, place(pixel, color.size()));
-        color.load(pixel) + strength * wide
+        color.load(pixel) + strength * spread_out(&glow, pixel)
     })
 }

@@ -30,6 +30,8 @@ pub struct ChainSetup {
     pub size: UVec2,
     /// Rounds of timing.
     pub rounds: u32,
+    /// Most pictures that a pass may write, where workgroups compute several.
+    pub most_outputs: u32,
     /// Minimum time of one measurement; faster forms are run several times in a row.
     pub least: Duration,
 }
@@ -64,7 +66,7 @@ struct Ready {
     difference: f64,
 }
 
-/// Measures each chain stored, fused where it should pay, and fused where it can be. Forms of a chain are timed in turn.
+/// Measures each chain stored, fused where it should pay, fused where it can be, and shared by workgroups. Forms of a chain are timed in turn.
 ///
 /// # Errors
 ///
@@ -99,7 +101,9 @@ fn study_chain(
         source: Box::new(source),
     };
     let compile = |fuse: Fuse, exact: bool| {
-        let mut spec = ChainSpec::from(subject.shader.clone()).fuse(fuse);
+        let mut spec = ChainSpec::from(subject.shader.clone())
+            .fuse(fuse)
+            .most_outputs(setup.most_outputs);
         spec.shader = spec.shader.format(Format::Rgba32Float);
         if exact {
             spec = spec.pictures(Format::Rgba32Float);
@@ -115,7 +119,7 @@ fn study_chain(
     let inputs = with_given(test_inputs(&exact.inputs_graph(), setup.size), &subject.given);
     let truth = bench.run_chain(&emitted, &inputs).map_err(failed)?;
     let mut forms = Vec::new();
-    for fuse in [Fuse::None, Fuse::Auto, Fuse::All] {
+    for fuse in [Fuse::None, Fuse::Auto, Fuse::All, Fuse::Share] {
         let (compiled, emitted) = compile(fuse.clone(), false)?;
         let found = bench.run_chain(&emitted, &inputs).map_err(failed)?;
         let difference = largest_difference(&truth, &found);
@@ -137,6 +141,7 @@ fn study_chain(
         Some(ChainForm {
             fuse: form.fuse.to_string(),
             fused: form.compiled.fused.clone(),
+            shared: shared_pictures(&form.compiled),
             passes: form.emitted.plan.passes.len(),
             bytes: form.bound.bytes(),
             difference: form.difference,
@@ -149,6 +154,16 @@ fn study_chain(
         options: subject.shader.settings.option_texts(),
         forms: recorded.collect(),
     })
+}
+
+/// Pictures that workgroups compute for later ones.
+fn shared_pictures(compiled: &CompiledChain) -> Vec<String> {
+    let passes = compiled
+        .shared
+        .iter()
+        .filter_map(|pass| pass.cascade.tiles.split_last());
+    let names = passes.flat_map(|(_, tiles)| tiles.iter().map(|tile| tile.name.clone()));
+    names.collect()
 }
 
 /// Inputs of a test card, but for those that are given.

@@ -20,30 +20,29 @@ enum Stored {
 ///
 /// If something that a pass reads is missing or does not fit.
 pub fn interpret_chain<R: Real>(chain: &CompiledChain, inputs: &Inputs) -> Result<Vec<Written>, ExecuteError> {
-    let mut pictures: Vec<Stored> = Vec::new();
+    let mut pictures: Vec<Option<Stored>> = chain.pictures.iter().map(|_| None).collect();
     let mut results = Vec::new();
-    for (index, (pass, picture)) in chain.passes.iter().zip(&chain.pictures).enumerate() {
+    for pass in &chain.passes {
         let kernel = chain.kernel_of(pass);
         let mut given = collect_reads(chain, pass, &pictures, inputs)?;
-        given.size = picture_size(&picture.size, inputs)?;
-        let made = interpret_kernel::<R>(kernel, &given, false)?;
-        let [written] = made.targets.as_slice() else {
-            return Err(ExecuteError::Input(format!(
-                "the pass `{}` draws no single picture",
-                picture.name
-            )));
-        };
-        if chain.results.contains(&index) {
-            let name = picture.name.clone();
-            results.push((
-                index,
-                Written {
-                    name,
-                    ..written.clone()
-                },
-            ));
+        for picture in pass.draws.iter().map(|index| &chain.pictures[*index]) {
+            given.size = picture_size(&picture.size, inputs)?;
+            given.target_sizes.push((picture.name.clone(), given.size));
         }
-        pictures.push(store(written, kernel, pass.format));
+        let made = interpret_kernel::<R>(kernel, &given, false)?;
+        for (output, (index, written)) in pass.draws.iter().zip(&made.targets).enumerate() {
+            if chain.results.contains(index) {
+                let name = chain.pictures[*index].name.clone();
+                results.push((
+                    *index,
+                    Written {
+                        name,
+                        ..written.clone()
+                    },
+                ));
+            }
+            pictures[*index] = Some(store(written, (kernel, output), pass.format));
+        }
     }
     results.sort_by_key(|(index, _)| chain.results.iter().position(|result| result == index));
     Ok(results.into_iter().map(|(_, written)| written).collect())
@@ -73,7 +72,7 @@ pub fn picture_size(rule: &SizeRule, inputs: &Inputs) -> Result<UVec2, ExecuteEr
 fn collect_reads(
     chain: &CompiledChain,
     pass: &CompiledPass,
-    pictures: &[Stored],
+    pictures: &[Option<Stored>],
     inputs: &Inputs,
 ) -> Result<Inputs, ExecuteError> {
     let mut given = Inputs {
@@ -83,8 +82,12 @@ fn collect_reads(
     for (name, source) in &pass.reads {
         match source {
             Source::Picture(index) => match &pictures[*index] {
-                Stored::Floats(picture) => given.images.push((name.clone(), vec![picture.clone()])),
-                Stored::Integers(picture) => given.integers.push((name.clone(), vec![picture.clone()])),
+                Some(Stored::Floats(picture)) => given.images.push((name.clone(), vec![picture.clone()])),
+                Some(Stored::Integers(picture)) => given.integers.push((name.clone(), vec![picture.clone()])),
+                None => {
+                    let name = &chain.pictures[*index].name;
+                    return Err(ExecuteError::Input(format!("`{name}` is read before it is drawn")));
+                }
             },
             Source::Input(input) => add_input(&mut given, name, input, inputs, chain)?,
         }
@@ -121,12 +124,13 @@ fn add_input(
     }
 }
 
-/// A picture in its format.
-fn store(written: &Written, kernel: &Compiled, colour: Format) -> Stored {
+/// A picture in its format: an output of a kernel, by index.
+fn store(written: &Written, (kernel, output): (&Compiled, usize), colour: Format) -> Stored {
     let size = written.size;
+    let target = kernel.graph.written_targets().nth(output);
     let (scalar, format) = (
-        kernel.graph.targets[0].ty.scalar_kind(),
-        kernel.target_formats(colour)[0],
+        target.and_then(|target| target.ty.scalar_kind()),
+        kernel.target_formats(colour)[output],
     );
     let texels = written.texels.iter();
     match scalar {

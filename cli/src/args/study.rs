@@ -117,6 +117,9 @@ pub struct ChainsArgs {
     /// be given several times
     #[arg(long, value_name = "NAME=NUMBERS", value_parser = super::pair)]
     pub uniform: Vec<(String, String)>,
+    /// Most pictures that a pass may write, where workgroups compute several
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub most_outputs: u32,
 }
 
 #[derive(Clone, Debug, Default, Args)]

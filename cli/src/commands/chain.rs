@@ -5,7 +5,7 @@ use crate::args::{EmitArgs, ExplainArgs};
 use crate::failure::{Failure, format_count};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use straightline_codegen::chain::{Chain, CompiledChain, EmittedChain, PassPlan, PicturePlan};
+use straightline_codegen::chain::{Chain, CompiledChain, EmittedChain, PassPlan, PicturePlan, SharedPass};
 use straightline_codegen::{Format, ShaderSpec, files};
 use straightline_engines::{ChainRequest, Engine};
 use straightline_table::{Column, Table};
@@ -75,20 +75,36 @@ pub fn explain_chain(args: &ExplainArgs, chain: &Chain) -> Result<(), Failure> {
 fn print(compiled: &CompiledChain, emitted: &EmittedChain) {
     let plan = &emitted.plan;
     outln!("{}: {}\n", compiled.name, compiled.summary);
-    let rows = plan.passes.iter().zip(plan.pictures.iter());
+    // Pictures of a pass, which mostly draws one.
+    let drawn = |pass: &PassPlan, of: &dyn Fn(&PicturePlan) -> String| {
+        let mut texts: Vec<String> = pass
+            .writes
+            .iter()
+            .filter_map(|name| plan.picture(name))
+            .map(of)
+            .collect();
+        texts.dedup();
+        texts.join(", ")
+    };
     let counts = |pass: &PassPlan| emitted.shaders[&*pass.shader].emitted.manifest.counts.clone();
     let sources = |pass: &PassPlan| {
         let reads: Vec<&str> = pass.reads.iter().map(|read| &*read.from).collect();
         reads.join(" ")
     };
-    let table = Table::of(rows)
-        .column(Column::new("pass").left(), |(pass, _)| pass.name.to_string())
-        .column(Column::new("shader").left(), |(pass, _)| pass.shader.to_string())
-        .column(Column::new("size").left(), |(_, picture)| picture.size.to_string())
-        .column(Column::new("format").left(), |(_, picture)| picture.format.to_string())
-        .column(Column::new("reads").left(), |(pass, _)| sources(pass))
-        .column("statements", |(pass, _)| counts(pass).statements.to_string())
-        .column("texel reads", |(pass, _)| {
+    let table = Table::of(plan.passes.iter())
+        .column(Column::new("pass").left(), |pass| {
+            drawn(pass, &|picture| picture.name.to_string())
+        })
+        .column(Column::new("shader").left(), |pass| pass.shader.to_string())
+        .column(Column::new("size").left(), |pass| {
+            drawn(pass, &|picture| picture.size.to_string())
+        })
+        .column(Column::new("format").left(), |pass| {
+            drawn(pass, &|picture| picture.format.to_string())
+        })
+        .column(Column::new("reads").left(), |pass| sources(pass))
+        .column("statements", |pass| counts(pass).statements.to_string())
+        .column("texel reads", |pass| {
             let counts = counts(pass);
             (counts.texture_reads + counts.colour_reads).to_string()
         })
@@ -111,6 +127,21 @@ fn print(compiled: &CompiledChain, emitted: &EmittedChain) {
     }
     if !compiled.fused.is_empty() {
         outln!("computed where they are read: {}", compiled.fused.join(", "));
+    }
+    for shared in &compiled.shared {
+        let names: Vec<&str> = shared.cascade.tiles.iter().map(|tile| tile.name.as_str()).collect();
+        let steps = shared
+            .cascade
+            .tiles
+            .iter()
+            .map(|tile| format!("{}x{}", tile.size[0], tile.size[1]));
+        outln!(
+            "`{}`: workgroups compute {}, in tiles of {} texels, with {} bytes of memory",
+            shared.kernel,
+            names.join(", "),
+            steps.collect::<Vec<_>>().join(", "),
+            shared.cascade.byte_size()
+        );
     }
     for (picture, reason) in &compiled.kept {
         outln!("`{picture}` is stored: {reason}");
@@ -157,6 +188,14 @@ fn to_json(compiled: &CompiledChain, emitted: &EmittedChain) -> Value {
         "plan": emitted.plan,
         "shaders": shaders.collect::<serde_json::Map<_, _>>(),
         "fused": compiled.fused,
+        "shared": compiled.shared.iter().map(shared_json).collect::<Vec<_>>(),
         "stored": compiled.kept.iter().map(|(name, reason)| json!({ "picture": name, "reason": reason })).collect::<Vec<_>>(),
     })
+}
+
+fn shared_json(shared: &SharedPass) -> Value {
+    let tiles = shared.cascade.tiles.iter().map(|tile| {
+        json!({ "picture": tile.name, "step": tile.step, "first": tile.first, "size": tile.size, "bytes": tile.bytes })
+    });
+    json!({ "kernel": shared.kernel, "tiles": tiles.collect::<Vec<_>>() })
 }

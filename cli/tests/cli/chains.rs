@@ -5,6 +5,16 @@ use crate::common;
 use common::{example, fails, finishes, here, is_empty, scratch, straightline, write};
 use straightline_manifest::chain::ChainPlan;
 
+/// A chain whose picture a sampler reads.
+const GLOW: &str = "
+pub fn glow(color: &Texture<Vec4>, linear: &Sampler) -> Texture<Vec4> {
+    let small: Texture<Vec4> = draw(color.size() / 2, |pixel| color.load(pixel * 2));
+    draw(color.size(), |pixel| {
+        let uv = (pixel.as_vec2() + 0.5) / color.size().as_vec2();
+        small.sample(linear, uv)
+    })
+}";
+
 fn bloom() -> String {
     here("examples/chains/bloom.rs")
 }
@@ -17,14 +27,22 @@ fn a_chain_is_checked_explained_and_listed() {
         listed.contains("a chain of passes") && listed.contains("levels"),
         "{listed}"
     );
-    let explained = finishes(&["explain", &bloom(), "--set", "levels=3", "--fuse", "auto"]);
-    for text in [
-        "6 passes of 4 shaders",
-        "color.size() / 8",
-        "`light` is stored: a sampler reads it",
-    ] {
-        assert!(explained.contains(text), "no `{text}` in:\n{explained}");
-    }
+    let explain = |fuse: &str| finishes(&["explain", &bloom(), "--set", "levels=3", "--fuse", fuse]);
+    let contains = |explained: &str, texts: &[&str]| {
+        for text in texts {
+            assert!(explained.contains(text), "no `{text}` in:\n{explained}");
+        }
+    };
+    let light = "`light` is stored: 17 reads of it cost less than";
+    contains(&explain("auto"), &["6 passes of 4 shaders", "color.size() / 8", light]);
+    let shared = "`bloom_cascade`: workgroups compute up, up_2, result, in tiles of";
+    contains(&explain("share"), &["2 passes of 2 shaders", "light, down", shared]);
+    contains(
+        &explain("share:up_2"),
+        &["5 passes of 4 shaders", "workgroups compute up_2, result"],
+    );
+    let json = finishes(&["explain", &bloom(), "--fuse", "share", "--json"]);
+    assert!(json.contains("\"picture\": \"down_5\""), "{json}");
     let json = finishes(&["explain", &here("examples/chains/blur.rs"), "--fuse", "all", "--json"]);
     assert!(json.contains("\"fused\": [\n    \"rows\"\n  ]"), "{json}");
 }
@@ -103,10 +121,32 @@ fn requests_that_mean_nothing_are_refused() {
             "--fuse all",
         ],
     );
+    let glow = write(&folder, "glow.rs", GLOW);
+    for fuse in ["small", "share:small"] {
+        let refused = [
+            "the picture `small` cannot be fused: a sampler reads it",
+            "leave it out of `--fuse`",
+        ];
+        fails(&["emit", &glow, "--fuse", fuse, "--out", out], 1, &refused);
+    }
+    let blur = here("examples/chains/blur.rs");
+    let shared = ["emit", &blur, "--fuse", "share", "--out", out];
+    let no_groups = ["pictures cannot be shared by workgroups", "leave `--stage` out"];
+    fails(&[&shared[..], &["--stage", "fragment"]].concat(), 1, &no_groups);
+    let no_memory = [
+        "computes `result` and others in the memory of workgroups",
+        "leave `share` out of `--fuse`",
+    ];
+    fails(&[&shared[..], &["--engine", "webgpu"]].concat(), 1, &no_memory);
     fails(
-        &["emit", &bloom(), "--fuse", "light", "--out", out],
+        &["emit", &blur, "--fuse", "share:result", "--out", out],
         1,
-        &["cannot be fused", "a sampler reads it"],
+        &["no later pass reads it"],
+    );
+    fails(
+        &["emit", &blur, "--fuse", "rows,share:rows", "--out", out],
+        2,
+        &["`rows` is given twice"],
     );
     fails(
         &["run", &bloom(), "--input", &here("docs/detail.png"), "--out", "x.png"],
@@ -123,6 +163,7 @@ fn requests_that_mean_nothing_are_refused() {
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("E0412"));
     std::fs::remove_file(&broken).expect("the file");
+    std::fs::remove_file(&glow).expect("the file");
     assert!(is_empty(&folder));
 }
 

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Diagnostic, Errors, File, Span};
 use straightline_evaluator::front::chain::{Picture, Source};
 use straightline_evaluator::ir::Graph;
+use straightline_evaluator::passes::Cascade;
 use straightline_manifest::Format;
 
 /// A chain whose passes are compiled, ready to be emitted or interpreted.
@@ -20,7 +21,7 @@ pub struct CompiledChain {
     pub changed: Vec<(String, String)>,
     /// Textures, samplers and buffers that it takes.
     pub inputs: Vec<String>,
-    /// Pictures that are stored, in the order in which they are drawn; of each, the pass of the same index.
+    /// Pictures that are stored, in the order in which they are drawn.
     pub pictures: Vec<Picture>,
     /// Passes in order.
     pub passes: Vec<CompiledPass>,
@@ -30,12 +31,24 @@ pub struct CompiledChain {
     pub kernels: BTreeMap<String, Compiled>,
     /// Pictures that are computed where they are read.
     pub fused: Vec<String>,
+    /// Pictures that workgroups compute one after another, by pass: the last one from the others, which are stored only if
+    /// something else reads them.
+    pub shared: Vec<SharedPass>,
     /// Pictures that could not be fused or would cost more so, each with the reason.
     pub kept: Vec<(String, String)>,
     pub(super) spec: ChainSpec,
     pub(super) files: Arc<Vec<File>>,
     /// Place of the function's name.
     pub(super) span: Span,
+}
+
+/// A pass whose workgroups compute several pictures.
+#[derive(Clone, Debug)]
+pub struct SharedPass {
+    /// Name of its kernel.
+    pub kernel: String,
+    /// The texels that a workgroup computes of each picture.
+    pub cascade: Cascade,
 }
 
 /// A pass of a compiled chain.
@@ -45,6 +58,8 @@ pub struct CompiledPass {
     pub kernel: String,
     /// Name of its shader: that of its kernel, with the format of what it draws where passes of one kernel differ in it.
     pub shader: String,
+    /// Indices of the pictures that it draws, in the order of the kernel's targets.
+    pub draws: Vec<usize>,
     /// Format of what it draws, if its texels are floats of three or four components.
     pub format: Format,
     /// Inputs of the kernel with what each reads.
@@ -116,6 +131,13 @@ impl CompiledChain {
             }
         }
         all
+    }
+
+    /// The pass that draws a picture, and which of its outputs that is.
+    pub fn drawn_by(&self, picture: usize) -> (usize, usize) {
+        let mut passes = self.passes.iter().enumerate();
+        let found = passes.find_map(|(k, pass)| Some((k, pass.draws.iter().position(|index| *index == picture)?)));
+        found.expect("a pass draws each picture")
     }
 
     /// Name of the input or picture that a pass reads.

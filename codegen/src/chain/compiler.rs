@@ -1,7 +1,10 @@
 //! Compiling the passes of a chain: each kernel once, with the pictures that it computes in place.
 
-use super::compiled::{CompiledChain, CompiledPass};
+use super::cascades::Grouping;
+use super::compiled::{CompiledChain, CompiledPass, SharedPass};
+use super::failures::Failures;
 use super::fusion::{self, Decision};
+use super::planned::{Pass, Planned, Shared};
 use super::spec::ChainSpec;
 use crate::compiled::Compiled;
 use crate::kernel::Kernel;
@@ -9,7 +12,7 @@ use crate::pipeline::{Start, first_sentence};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File};
-use straightline_evaluator::front::chain::{Chain, Pass, Source};
+use straightline_evaluator::front::chain::{self as front, Chain, Source};
 use straightline_evaluator::ir::Texture;
 use straightline_evaluator::passes::{self, Drawn};
 use straightline_kernels::OptionValues;
@@ -34,29 +37,34 @@ pub(super) fn compile_passes(
     let decision =
         fusion::decide(&chain, &starts, &sized, &spec.fuse).map_err(|error| Errors::new(vec![*error], files))?;
     let planned = compiler.plan_passes(&starts, &decision, &sized)?;
-    let kernels = compiler.compile_all(&planned)?;
-    let stored = |index: usize| decision.fused[..index].iter().filter(|fused| !**fused).count();
-    let moved = |source: Source| match source {
-        Source::Picture(index) => Source::Picture(stored(index)),
-        input => input,
+    let planned = compiler.share_passes(planned, &starts, &sized)?;
+    let kernels = compiler.compile_all(&planned.passes)?;
+    let mut stored: Vec<usize> = planned.passes.iter().flat_map(|pass| pass.pictures.clone()).collect();
+    stored.sort_unstable();
+    let moved = |picture: usize| {
+        stored
+            .iter()
+            .position(|index| *index == picture)
+            .expect("a stored picture")
     };
-    let mut passes = Vec::new();
-    let mut pictures = Vec::new();
-    for planned in planned {
-        let picture = &chain.pictures[planned.picture];
-        let default = match chain.results.contains(&planned.picture) {
-            true => spec.shader.emit.format,
-            false => spec.pictures.unwrap_or_default(),
-        };
-        let reads = planned.reads.into_iter().map(|(name, source)| (name, moved(source)));
-        passes.push(CompiledPass {
-            format: picture.format.unwrap_or(default),
-            shader: planned.kernel.clone(),
-            kernel: planned.kernel,
-            reads: reads.collect(),
-        });
-        pictures.push(picture.clone());
-    }
+    let mut passes: Vec<CompiledPass> = planned
+        .passes
+        .into_iter()
+        .map(|pass| CompiledPass {
+            format: pass.format,
+            shader: pass.kernel.clone(),
+            kernel: pass.kernel,
+            draws: pass.pictures.into_iter().map(moved).collect(),
+            reads: pass
+                .reads
+                .into_iter()
+                .map(|(name, source)| match source {
+                    Source::Picture(index) => (name, Source::Picture(moved(index))),
+                    input => (name, input),
+                })
+                .collect(),
+        })
+        .collect();
     name_shaders(&mut passes);
     let named = |index: usize| chain.pictures[index].name.clone();
     Ok(CompiledChain {
@@ -64,36 +72,25 @@ pub(super) fn compile_passes(
             .filter(|k| decision.fused[*k])
             .map(named)
             .collect(),
+        shared: planned.shared,
         kept: decision
             .kept
             .into_iter()
+            .chain(planned.kept)
             .map(|kept| (named(kept.picture), kept.reason))
             .collect(),
-        results: chain.results.iter().map(|index| stored(*index)).collect(),
+        results: chain.results.iter().map(|index| moved(*index)).collect(),
+        pictures: stored.iter().map(|index| chain.pictures[*index].clone()).collect(),
         name: chain.name,
         changed: Vec::new(),
         summary: first_sentence(&chain.docs),
         inputs: chain.inputs,
         passes,
-        pictures,
         kernels,
         spec: spec.clone(),
         files: Arc::clone(files),
         span: chain.span,
     })
-}
-
-/// A pass that is stored, before its kernel is compiled.
-struct Planned {
-    /// Index of its picture in the chain.
-    picture: usize,
-    /// Name of its kernel.
-    kernel: String,
-    /// Name of the kernel as the front end made it.
-    entry: String,
-    /// Kernel with the pictures in it that are computed in place; `None` if there are none.
-    fused: Option<Start>,
-    reads: Vec<(String, Source)>,
 }
 
 struct Compiler<'c> {
@@ -179,23 +176,21 @@ impl Compiler<'_> {
             }
             let start = self.fuse_pass(&starts[&pass.entry], index, decision, (&fused, sized))?;
             if !decision.fused[index] {
-                let reads = self.reads_of(&start, decision);
-                let numbered = (2..).map(|k: u32| format!("{}_{k}", pass.entry));
-                let mut names = std::iter::once(pass.entry.clone()).chain(numbered);
+                let reads = self.reads_of(&start, &|picture| decision.fused[picture]);
                 // Other passes may have the kernel without the fused pictures.
-                let others = || {
-                    self.chain
-                        .passes
-                        .iter()
-                        .enumerate()
-                        .filter(|(other, _)| *other != index)
-                };
-                let taken = |name: &str| {
-                    planned.iter().any(|other| other.kernel == name) || others().any(|(_, other)| other.entry == name)
-                };
+                let others = self
+                    .chain
+                    .passes
+                    .iter()
+                    .enumerate()
+                    .filter(|(other, _)| *other != index);
+                let taken: Vec<&str> = planned.iter().map(|other| other.kernel.as_str()).collect();
+                let kernel = unused_kernel(&pass.entry, |name| {
+                    taken.contains(&name) || others.clone().any(|(_, other)| other.entry == name)
+                });
                 planned.push(Planned {
                     picture: index,
-                    kernel: names.find(|name| !taken(name)).expect("endless"),
+                    kernel,
                     entry: pass.entry.clone(),
                     fused: Some(start.clone()),
                     reads,
@@ -204,6 +199,76 @@ impl Compiler<'_> {
             fused.push(Some(start));
         }
         Ok(planned)
+    }
+
+    /// Merges passes whose workgroups can compute a picture after another.
+    fn share_passes(
+        &self,
+        planned: Vec<Planned>,
+        starts: &BTreeMap<String, Start>,
+        sized: &[Texture],
+    ) -> Result<Shared, Errors> {
+        let kernels = planned.iter().map(|pass| match &pass.fused {
+            Some(start) => start.clone(),
+            None => self.renamed(&starts[&pass.entry], &self.chain.passes[pass.picture]),
+        });
+        let kernels: Vec<Start> = kernels.collect();
+        let grouping = Grouping {
+            chain: self.chain,
+            spec: self.spec,
+            planned: &planned,
+            starts: &kernels,
+            sized,
+        };
+        let (mut groups, kept) = grouping
+            .group()
+            .map_err(|error| Errors::new(vec![*error], self.files))?;
+        groups.sort_by_key(|group| group.members.last().copied());
+        let (mut passes, mut shared): (Vec<Pass>, Vec<SharedPass>) = (Vec::new(), Vec::new());
+        for group in groups {
+            let last = *group.members.last().expect("groups have members");
+            let of = planned[last].clone();
+            let Some(cascade) = group.cascade else {
+                passes.push(Pass {
+                    pictures: vec![of.picture],
+                    format: grouping.format_of(last),
+                    kernel: of.kernel,
+                    entry: of.entry,
+                    changed: of.fused,
+                    reads: of.reads,
+                });
+                continue;
+            };
+            let parts = grouping.parts(&group.members);
+            let graph = passes::compute_cascade(&parts, sized, &cascade).map_err(|reason| {
+                let picture = &self.chain.pictures[of.picture];
+                Errors::new(vec![*fusion::unfit(picture, &reason.to_string())], self.files)
+            })?;
+            let half = group
+                .members
+                .iter()
+                .flat_map(|member| kernels[*member].half.iter().cloned());
+            let start = Start {
+                graph,
+                half: half.collect(),
+            };
+            let is_member = |picture: usize| group.members.iter().any(|member| planned[*member].picture == picture);
+            let kernel = unused_kernel(&format!("{}_cascade", of.entry), |name| {
+                passes.iter().any(|pass| pass.kernel == name) || planned.iter().any(|pass| pass.entry == name)
+            });
+            let stored = group.members.iter().zip(&parts).filter(|(_, part)| part.stored);
+            let stored: Vec<usize> = stored.map(|(member, _)| *member).collect();
+            passes.push(Pass {
+                pictures: stored.iter().map(|member| planned[*member].picture).collect(),
+                format: grouping.format_of(stored.first().copied().unwrap_or(last)),
+                kernel: kernel.clone(),
+                entry: of.entry,
+                reads: self.reads_of(&start, &is_member),
+                changed: Some(start),
+            });
+            shared.push(SharedPass { kernel, cascade });
+        }
+        Ok(Shared { passes, shared, kept })
     }
 
     /// The kernel of a pass with the pictures in it that are computed in place. Its textures are called after what they hold.
@@ -244,7 +309,7 @@ impl Compiler<'_> {
     }
 
     /// The kernel with its resources called as the inputs and pictures of the chain are.
-    fn renamed(&self, start: &Start, pass: &Pass) -> Start {
+    fn renamed(&self, start: &Start, pass: &front::Pass) -> Start {
         let mut start = start.clone();
         let name_of = |name: &str| {
             let found = pass.reads.iter().find(|(known, _)| known == name);
@@ -266,7 +331,7 @@ impl Compiler<'_> {
     }
 
     /// Resources of a fused kernel, which are called after what they hold.
-    fn reads_of(&self, start: &Start, decision: &Decision) -> Vec<(String, Source)> {
+    fn reads_of(&self, start: &Start, is_gone: &dyn Fn(usize) -> bool) -> Vec<(String, Source)> {
         let graph = &start.graph;
         let names = graph.textures.iter().map(|texture| &texture.name);
         let names = names.chain(graph.samplers.iter().map(|sampler| &sampler.name));
@@ -276,7 +341,7 @@ impl Compiler<'_> {
             None => Source::Input(name.clone()),
         };
         // Pictures that are computed in place are still listed among the textures, which nothing reads.
-        let is_stored = |(_, source): &(String, Source)| !matches!(source, Source::Picture(k) if decision.fused[*k]);
+        let is_stored = |(_, source): &(String, Source)| !matches!(source, Source::Picture(k) if is_gone(*k));
         names
             .map(|name| (name.clone(), source(name)))
             .filter(is_stored)
@@ -284,16 +349,16 @@ impl Compiler<'_> {
     }
 
     /// Compiles each kernel once, with what the chain knows of the sizes of its textures.
-    fn compile_all(&self, planned: &[Planned]) -> Result<BTreeMap<String, Compiled>, Errors> {
+    fn compile_all(&self, passes: &[Pass]) -> Result<BTreeMap<String, Compiled>, Errors> {
         let mut failures = Failures::default();
         let mut kernels = BTreeMap::new();
-        for pass in planned {
+        for pass in passes {
             if kernels.contains_key(&pass.kernel) || failures.entries.contains(&pass.kernel) {
                 continue;
             }
-            let framed = self.framed_textures(planned, &pass.kernel);
+            let framed = self.framed_textures(passes, &pass.kernel);
             let change = |start: Start| {
-                let mut start = pass.fused.clone().unwrap_or(start);
+                let mut start = pass.changed.clone().unwrap_or(start);
                 start.graph = passes::frame_textures(&start.graph, &|name| framed.contains(name));
                 Ok(start)
             };
@@ -310,10 +375,14 @@ impl Compiler<'_> {
     }
 
     /// Textures of a kernel that have the size of what is drawn, in every pass that has the kernel.
-    fn framed_textures(&self, planned: &[Planned], kernel: &str) -> BTreeSet<String> {
-        let passes = planned.iter().filter(|pass| pass.kernel == kernel);
+    fn framed_textures(&self, passes: &[Pass], kernel: &str) -> BTreeSet<String> {
+        let passes = passes.iter().filter(|pass| pass.kernel == kernel);
         let framed = passes.map(|pass| -> BTreeSet<String> {
-            let drawn = &self.chain.pictures[pass.picture].size;
+            let of_frame = pass.changed.as_ref().is_none_or(|start| start.graph.images.is_empty());
+            let Some(drawn) = pass.pictures.first().filter(|_| of_frame) else {
+                return BTreeSet::new();
+            };
+            let drawn = &self.chain.pictures[*drawn].size;
             let is_framed = |source: &Source| match source {
                 Source::Input(name) => drawn == &SizeRule::of_input(name),
                 Source::Picture(index) => &self.chain.pictures[*index].size == drawn,
@@ -327,34 +396,10 @@ impl Compiler<'_> {
     }
 }
 
-/// Errors of several kernels of one set of files.
-#[derive(Default)]
-struct Failures {
-    /// Kernels that have errors.
-    entries: BTreeSet<String>,
-    found: Vec<Diagnostic>,
-    /// Errors of the first kernel, if it is the only one.
-    first: Option<Errors>,
-}
-
-impl Failures {
-    fn add(&mut self, entry: &str, errors: Errors) {
-        for error in &errors.diagnostics {
-            if !self.found.contains(error) {
-                self.found.push(error.clone());
-            }
-        }
-        self.entries.insert(entry.to_owned());
-        self.first.get_or_insert(errors);
-    }
-
-    fn none(self, files: &Arc<Vec<File>>) -> Result<(), Errors> {
-        match (self.first, self.entries.len()) {
-            (None, _) => Ok(()),
-            (Some(first), 1) => Err(first),
-            (Some(_), _) => Err(Errors::new(self.found, files)),
-        }
-    }
+/// The name of a kernel, with a number if others have it.
+fn unused_kernel(name: &str, mut taken: impl FnMut(&str) -> bool) -> String {
+    let mut names = std::iter::once(name.to_owned()).chain((2..).map(|k: u32| format!("{name}_{k}")));
+    names.find(|name| !taken(name)).expect("endless")
 }
 
 /// Names the shaders of passes that have one kernel and several formats after both.

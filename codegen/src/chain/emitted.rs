@@ -120,11 +120,12 @@ fn plan_chain(chain: &CompiledChain, shaders: &BTreeMap<String, EmittedPass>) ->
                 .enumerate()
                 .filter(|(_, reads)| reads.iter().any(|(_, s)| **s == Source::Picture(k)));
             let last = readers.map(|(reader, _)| reader).next_back();
+            let (drawn, output) = chain.drawn_by(k);
             Life {
                 size: picture.size.clone(),
-                format: shaders[&chain.passes[k].shader].emitted.manifest.outputs[0].format,
-                drawn: k,
-                last_read: (!chain.results.contains(&k)).then(|| last.unwrap_or(k)),
+                format: shaders[&chain.passes[drawn].shader].emitted.manifest.outputs[output].format,
+                drawn,
+                last_read: (!chain.results.contains(&k)).then(|| last.unwrap_or(drawn)),
             }
         })
         .collect();
@@ -140,23 +141,22 @@ fn plan_chain(chain: &CompiledChain, shaders: &BTreeMap<String, EmittedPass>) ->
             format: life.format,
             memory,
         });
-    let passes = chain
-        .passes
-        .iter()
-        .zip(reads)
-        .zip(&chain.pictures)
-        .map(|((pass, reads), picture)| PassPlan {
-            name: picture.name.clone().into(),
-            shader: pass.shader.clone().into(),
-            reads: reads
-                .into_iter()
-                .map(|(name, source)| ReadPlan {
-                    name: name.clone().into(),
-                    from: chain.source_name(source).to_owned().into(),
-                })
-                .collect(),
-            writes: vec![picture.name.clone().into()].into(),
-        });
+    let passes = chain.passes.iter().zip(reads).map(|(pass, reads)| PassPlan {
+        name: chain.pictures[pass.draws[0]].name.clone().into(),
+        shader: pass.shader.clone().into(),
+        reads: reads
+            .into_iter()
+            .map(|(name, source)| ReadPlan {
+                name: name.clone().into(),
+                from: chain.source_name(source).to_owned().into(),
+            })
+            .collect(),
+        writes: pass
+            .draws
+            .iter()
+            .map(|picture| chain.pictures[*picture].name.clone().into())
+            .collect(),
+    });
     let inputs = |name: &&String| {
         let is_read = |(_, source): &(String, Source)| matches!(source, Source::Input(input) if input == *name);
         let has_size = |term: &SizeTerm| matches!(term, SizeTerm::Of(input) if *input == **name);

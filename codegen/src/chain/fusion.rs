@@ -4,7 +4,7 @@ use super::spec::Fuse;
 use crate::pipeline::Start;
 use std::collections::BTreeMap;
 use straightline_evaluator::diagnostic::{Code, Diagnostic};
-use straightline_evaluator::front::chain::{Chain, Source};
+use straightline_evaluator::front::chain::{Chain, Picture, Source};
 use straightline_evaluator::ir::{Op, Texture};
 use straightline_evaluator::passes::{self, Unfused};
 use straightline_evaluator::suggest_name;
@@ -12,6 +12,10 @@ use straightline_evaluator::suggest_name;
 /// Cost of a read or a store of a texel, in operations. Ratios of a texture unit's rate to that of arithmetic lie between 4 and
 /// 16 on GPUs of ten years.
 const TEXEL: usize = 8;
+
+/// Most operations of a pass in which everything is computed that can be: a shader of some thousand lines. SwiftShader's compiler
+/// ends the program at five times as many.
+const MOST_OPERATIONS: usize = 4_000;
 
 /// Reason why a picture is stored that could have been asked for.
 pub struct Kept {
@@ -42,8 +46,8 @@ pub fn decide(
         fused: vec![false; chain.pictures.len()],
         kept: Vec::new(),
     };
-    if let Fuse::Named(names) = fuse {
-        check_names(chain, names.iter().map(String::as_str))?;
+    if let Fuse::Named { inline, shared } = fuse {
+        check_names(chain, inline.iter().chain(shared).map(String::as_str))?;
     }
     let mut costs: Vec<usize> = chain
         .passes
@@ -52,9 +56,9 @@ pub fn decide(
         .collect();
     for (index, picture) in chain.pictures.iter().enumerate() {
         let wanted = match fuse {
-            Fuse::None => false,
+            Fuse::None | Fuse::Share => false,
             Fuse::Auto | Fuse::All => !chain.results.contains(&index),
-            Fuse::Named(names) => names.contains(&picture.name),
+            Fuse::Named { inline, .. } => inline.contains(&picture.name),
         };
         if !wanted {
             continue;
@@ -64,7 +68,9 @@ pub fn decide(
             Ok(reads) => {
                 let each = costs[index];
                 let total: usize = reads.iter().map(|(_, count)| count).sum();
-                if *fuse != Fuse::Auto || pays(each, total) {
+                let largest = reads.iter().map(|(reader, count)| costs[*reader] + count * each).max();
+                let is_large = *fuse == Fuse::All && largest.is_some_and(|operations| operations > MOST_OPERATIONS);
+                if (*fuse != Fuse::Auto || pays(each, total)) && !is_large {
                     decision.fused[index] = true;
                     // A reader computes the picture in place of reading it.
                     for (reader, count) in reads {
@@ -72,20 +78,28 @@ pub fn decide(
                     }
                     continue;
                 }
-                format!("{total} reads of it cost less than {each} operations each")
+                match is_large {
+                    true => format!("{total} times {each} operations are too many for a pass"),
+                    false => format!("{total} reads of it cost less than {each} operations each"),
+                }
             }
         };
-        if let Fuse::Named(_) = fuse {
-            let what = format!("the picture `{}` cannot be fused: {reason}", picture.name);
-            return Err(Box::new(
-                Diagnostic::error_at(Code::UnfitSetting, picture.span, what)
-                    .label("drawn here")
-                    .help("leave it out of `--fuse`, or use `--fuse auto`"),
-            ));
+        if let Fuse::Named { .. } = fuse {
+            return Err(unfit(picture, &reason));
         }
         decision.kept.push(Kept { picture: index, reason });
     }
     Ok(decision)
+}
+
+/// Error of a picture that was asked for by name, and has to be stored.
+pub fn unfit(picture: &Picture, reason: &str) -> Box<Diagnostic> {
+    let what = format!("the picture `{}` cannot be fused: {reason}", picture.name);
+    Box::new(
+        Diagnostic::error_at(Code::UnfitSetting, picture.span, what)
+            .label("drawn here")
+            .help("leave it out of `--fuse`, or use `--fuse auto`"),
+    )
 }
 
 fn check_names<'n>(chain: &Chain, names: impl Iterator<Item = &'n str>) -> Result<(), Box<Diagnostic>> {
@@ -142,7 +156,7 @@ fn pays(each: usize, total: usize) -> bool {
 }
 
 /// Cost of a texel of a picture in operations.
-fn operations(start: &Start) -> usize {
+pub fn operations(start: &Start) -> usize {
     let cost = |op: &Op| match op {
         Op::Const(_)
         | Op::Pixel

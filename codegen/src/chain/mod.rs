@@ -23,11 +23,14 @@
 //! ```
 
 mod bindings;
+mod cascades;
 mod compiled;
 mod compiler;
 mod emitted;
+mod failures;
 mod fusion;
 mod memory;
+mod planned;
 mod spec;
 
 use crate::kernel::{Kernel, deep, read_source};
@@ -40,10 +43,11 @@ use straightline_evaluator::eval::{OptionInfo, OptionKind};
 use straightline_evaluator::front::chain as front;
 use straightline_kernels::{OptionText, OptionValues};
 
-pub use compiled::{CompiledChain, CompiledPass};
+pub use compiled::{CompiledChain, CompiledPass, SharedPass};
 pub use emitted::{EmittedChain, EmittedPass};
 pub use spec::{ChainSpec, Fuse};
 pub use straightline_evaluator::front::chain::Source;
+pub use straightline_evaluator::passes::{Cascade, CascadeTile};
 pub use straightline_manifest::chain::{ChainPlan, PassPlan, PicturePlan, ReadPlan, SizeOp, SizeRule, SizeTerm};
 
 /// A chain's source: its files and which function it is.

@@ -14,15 +14,28 @@ use straightline_manifest::Format;
 ///
 /// let spec = ChainSpec::from(ShaderSpec::new().set("levels", "5")).fuse(Fuse::Auto);
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ChainSpec {
     /// Description of every pass. Its format is that of the results.
     pub shader: ShaderSpec,
     /// Pictures that are computed where they are read.
     pub fuse: Fuse,
+    /// Most pictures that a pass may write, where workgroups compute several. 4 is what every device of WebGPU has.
+    pub most_outputs: u32,
     /// Format of the pictures between passes; by default what their texels need: `rgba16float` for three and four components.
     pub pictures: Option<Format>,
+}
+
+impl Default for ChainSpec {
+    fn default() -> Self {
+        ChainSpec {
+            shader: ShaderSpec::default(),
+            fuse: Fuse::None,
+            most_outputs: 4,
+            pictures: None,
+        }
+    }
 }
 
 impl From<ShaderSpec> for ChainSpec {
@@ -41,6 +54,12 @@ impl ChainSpec {
         self
     }
 
+    /// Sets how many pictures a pass may write, where workgroups compute several: at least 1.
+    pub fn most_outputs(mut self, most: u32) -> Self {
+        self.most_outputs = most;
+        self
+    }
+
     /// Sets the format of the pictures between passes, but of those with an attribute.
     pub fn pictures(mut self, format: Format) -> Self {
         self.pictures = Some(format);
@@ -48,7 +67,7 @@ impl ChainSpec {
     }
 }
 
-/// Pictures of a chain that are computed where they are read, in place of being stored in a texture.
+/// Passes of a chain that are one: pictures that are computed where they are read, or by the workgroup that reads them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Fuse {
     /// None: each call of `draw` is a pass.
@@ -56,27 +75,68 @@ pub enum Fuse {
     None,
     /// Pictures that cost no more to compute at every read than to store and read.
     Auto,
-    /// All that can be.
+    /// All that can be computed where they are read.
     All,
+    /// All that workgroups can compute in their memory, for a later picture.
+    Share,
     /// Pictures of these names.
-    Named(BTreeSet<String>),
+    Named {
+        /// Computed where they are read.
+        inline: BTreeSet<String>,
+        /// Computed by the workgroup that reads them.
+        shared: BTreeSet<String>,
+    },
+}
+
+/// Prefix of a picture that workgroups share.
+const SHARED: &str = "share:";
+
+impl Fuse {
+    /// These pictures, computed where they are read.
+    pub fn inline<N: Into<String>>(names: impl IntoIterator<Item = N>) -> Fuse {
+        Fuse::Named {
+            inline: names.into_iter().map(Into::into).collect(),
+            shared: BTreeSet::new(),
+        }
+    }
+
+    /// Returns whether workgroups are to compute a picture in their memory.
+    pub fn shares(&self, picture: &str) -> bool {
+        match self {
+            Fuse::Share => true,
+            Fuse::Named { shared, .. } => shared.contains(picture),
+            Fuse::None | Fuse::Auto | Fuse::All => false,
+        }
+    }
 }
 
 impl FromStr for Fuse {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let (mut inline, mut shared) = (BTreeSet::new(), BTreeSet::new());
         match text {
-            "none" => Ok(Fuse::None),
-            "auto" => Ok(Fuse::Auto),
-            "all" => Ok(Fuse::All),
-            names => {
-                let names: BTreeSet<String> = names.split(',').map(|name| name.trim().to_owned()).collect();
-                match names.iter().any(String::is_empty) {
-                    true => Err("expected none, auto, all, or names of pictures: `--fuse edges,weights`".to_owned()),
-                    false => Ok(Fuse::Named(names)),
-                }
+            "none" => return Ok(Fuse::None),
+            "auto" => return Ok(Fuse::Auto),
+            "all" => return Ok(Fuse::All),
+            "share" => return Ok(Fuse::Share),
+            _ => {}
+        }
+        for name in text.split(',').map(str::trim) {
+            let (names, name) = match name.strip_prefix(SHARED) {
+                Some(name) => (&mut shared, name),
+                None => (&mut inline, name),
+            };
+            if name.is_empty() {
+                return Err(format!(
+                    "expected none, auto, all, share, or names of pictures: `--fuse edges,{SHARED}weights`"
+                ));
             }
+            names.insert(name.to_owned());
+        }
+        match inline.intersection(&shared).next() {
+            Some(both) => Err(format!("`{both}` is given twice: by itself, and as `{SHARED}{both}`")),
+            None => Ok(Fuse::Named { inline, shared }),
         }
     }
 }
@@ -87,7 +147,11 @@ impl fmt::Display for Fuse {
             Fuse::None => f.write_str("none"),
             Fuse::Auto => f.write_str("auto"),
             Fuse::All => f.write_str("all"),
-            Fuse::Named(names) => f.write_str(&names.iter().cloned().collect::<Vec<_>>().join(",")),
+            Fuse::Share => f.write_str("share"),
+            Fuse::Named { inline, shared } => {
+                let shared = shared.iter().map(|name| format!("{SHARED}{name}"));
+                f.write_str(&inline.iter().cloned().chain(shared).collect::<Vec<_>>().join(","))
+            }
         }
     }
 }

@@ -103,6 +103,7 @@ fn build_chain(config: &KernelConfig, chain: Chain) -> Result<Built, Errors> {
         .try_fold(chain, |chain, path| chain.with_file(path))?;
     let mut spec = ChainSpec::from(config.spec.clone().target(Target::Wgsl)).fuse(config.fuse.clone());
     spec.pictures = config.pictures;
+    spec.most_outputs = config.most_outputs.unwrap_or(spec.most_outputs);
     let compiled = chain.compile(&spec)?;
     let mut emitted = compiled.emit()?;
     if let Some(name) = &config.name {

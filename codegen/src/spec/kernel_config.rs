@@ -19,6 +19,8 @@ pub struct KernelConfig {
     pub(crate) fuse: Fuse,
     /// Format of the pictures between the passes of a chain.
     pub(crate) pictures: Option<Format>,
+    /// Most pictures that a pass may write; `None` for the default.
+    pub(crate) most_outputs: Option<u32>,
     /// Options with several values.
     pub(crate) variants: Variants,
     /// Additional files with functions that the kernel calls.
@@ -42,6 +44,7 @@ impl KernelConfig {
             spec: ShaderSpec::new(),
             fuse: Fuse::None,
             pictures: None,
+            most_outputs: None,
             variants: Variants::default(),
             sources: Vec::new(),
         }
@@ -95,6 +98,18 @@ impl KernelConfig {
     /// ```
     pub fn fuse(mut self, fuse: Fuse) -> Self {
         self.fuse = fuse;
+        self
+    }
+
+    /// Sets how many pictures a pass of a chain may write, where workgroups compute several ([`Fuse::Share`]): 4 unless stated,
+    /// which every device of WebGPU has.
+    ///
+    /// ```
+    /// # use straightline_codegen::{chain::Fuse, Config};
+    /// let shaders = Config::new().file_with("src/mips.rs", |k| k.fuse(Fuse::Share).most_outputs(8));
+    /// ```
+    pub fn most_outputs(mut self, most: u32) -> Self {
+        self.most_outputs = Some(most);
         self
     }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use straightline_codegen::chain::Fuse;
 use straightline_codegen::emit::{self, Module, Modules, Target};
 use straightline_codegen::{Config, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
 
@@ -432,6 +433,9 @@ fn write(out: &Path) {
         .file_with(kernel("several"), |k| k.stage(Stage::Fragment))
         .file(kernel("waiting"))
         .file_with(kernel("glow"), |k| k.format(Format::Rgba32Float))
+        .file_with(kernel("levels"), |k| {
+            k.format(Format::Rgba32Float).fuse(Fuse::Share).most_outputs(2)
+        })
         .file_with(kernel("faded"), |k| {
             let k = k.format(Format::Rgba32Float).set("strength", 0.75);
             k.override_options(["strength", "inverted"])

@@ -72,7 +72,7 @@ impl Engine {
     ///
     /// If the chain does not fit, with a suggestion; or if a template fails.
     pub fn render_chain_files(&self, request: &ChainRequest<'_>) -> Result<BTreeMap<String, Vec<u8>>, EngineError> {
-        if let [pass] = request.compiled.passes.as_slice() {
+        if let ([pass], []) = (request.compiled.passes.as_slice(), request.compiled.shared.as_slice()) {
             let kernel = Request::new(request.compiled.kernel_of(pass), request.options);
             return self.render_files(&Request {
                 name: request.name.clone(),
@@ -126,6 +126,13 @@ impl Engine {
 
     fn fit_chain(&self, request: &ChainRequest<'_>) -> Result<ChainContext, Unfit> {
         let title = &self.description().title;
+        if let Some(shared) = request.compiled.shared.first() {
+            let last = shared.cascade.tiles.last().map_or("", |tile| &tile.name);
+            let why =
+                format!("computes `{last}` and others in the memory of workgroups, and {title} draws single pictures");
+            let help = "leave `share` out of `--fuse`".to_owned();
+            return Err(Unfit::Engine(Misfit::new(format!("it {why}")).help(help)));
+        }
         let (Some(engine), Some(chain)) = (self.of_passes(), &self.description().chain) else {
             let why = format!("it has {} passes, and {title} takes one", request.compiled.passes.len());
             let help = "`--fuse all` makes one pass of pictures that no sampler reads";

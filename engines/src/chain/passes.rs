@@ -56,9 +56,10 @@ impl Passes<'_> {
             };
             let compiled = self.request.compiled.kernel_of(pass);
             let request = self.shader_request(pass, compiled);
-            let pictures = self.request.compiled.pictures.iter().zip(self.passes());
-            let drawn = pictures.into_iter().find(|(_, other)| other.shader == name);
-            let picture = drawn.map_or(name, |(picture, _)| &picture.name);
+            let picture = pass
+                .draws
+                .first()
+                .map_or(name, |index| &self.request.compiled.pictures[*index].name);
             let of_pass = |unfit: Unfit| unfit.of_subject(&format!("its pass `{picture}`"));
             let (inputs, shaders) = engine.emit_shaders(&request).map_err(of_pass)?;
             contexts.push(engine.context_of(&request, &inputs, shaders));

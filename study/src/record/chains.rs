@@ -14,6 +14,9 @@ pub struct ChainForm {
     pub fuse: String,
     /// Pictures that are computed where they are read.
     pub fused: Vec<String>,
+    /// Pictures that workgroups compute for later ones, in their memory.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shared: Vec<String>,
     /// Number of passes.
     pub passes: usize,
     /// Bytes of the textures between them.
@@ -68,6 +71,7 @@ impl Record for ChainsRecord {
             })
             .scientific(("difference", "off 32-bit pictures"), 1, |(_, form)| form.difference)
             .column(Column::from("fused").left(), |(_, form)| form.fused.join(" "))
+            .column(Column::from("shared").left(), |(_, form)| form.shared.join(" "))
             .finish()
     }
 }

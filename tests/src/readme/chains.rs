@@ -8,16 +8,23 @@ pub fn forms(records: &[ChainsRecord]) -> Table {
     let first = records.first();
     let rows = first.into_iter().flat_map(|record| &record.chains);
     let rows = rows.flat_map(|chain| {
-        // A form that fuses no more than the one before it is that form again.
+        // A form with the same pictures as one before it is that form again.
         let forms = chain.forms.iter().enumerate();
-        let forms = forms.filter(|(k, form)| *k == 0 || chain.forms[k - 1].fused != form.fused);
+        let pictures = |form: &ChainForm| (form.fused.clone(), form.shared.clone());
+        let is_new = move |(k, form): &(usize, &ChainForm)| {
+            chain.forms[..*k]
+                .iter()
+                .all(|before| pictures(before) != pictures(form))
+        };
+        let forms = forms.filter(is_new);
         forms.map(|(_, form)| (chain.chain.as_str(), form))
     });
     let mut table = Table::of(rows)
         .column(Column::from("chain").grouped(), |(chain, _)| *chain)
         .column(Column::from("`fuse`").left(), |(_, form)| format!("`{}`", form.fuse))
-        .column(Column::from("computed where read").left(), |(_, form)| {
-            let names: Vec<String> = form.fused.iter().map(|name| format!("`{name}`")).collect();
+        .column(Column::from("fused pictures").left(), |(_, form)| {
+            let names = form.fused.iter().chain(&form.shared);
+            let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
             names.join(", ")
         })
         .column("passes", |(_, form)| form.passes)

@@ -38,9 +38,10 @@ pub fn device() -> (wgpu::Device, wgpu::Queue) {
                 | wgpu::Features::SUBGROUP
                 | wgpu::Features::SHADER_F16
                 | wgpu::Features::TIMESTAMP_QUERY),
-        // Several targets of full floats are more than WebGPU promises.
+        // Several targets, and those of full floats, are more than WebGPU promises.
         required_limits: wgpu::Limits {
             max_color_attachment_bytes_per_sample: adapter.limits().max_color_attachment_bytes_per_sample,
+            max_storage_textures_per_shader_stage: adapter.limits().max_storage_textures_per_shader_stage,
             ..wgpu::Limits::default()
         },
         ..Default::default()

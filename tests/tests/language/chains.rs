@@ -18,7 +18,7 @@ mod constructs;
 const CONSTRUCTS: &str = include_str!("../../chains/constructs.rs");
 
 /// Sizes of frames: a single texel, rows, columns, odd and even sizes.
-const SIZES: [UVec2; 6] = [
+pub const SIZES: [UVec2; 6] = [
     uvec2(1, 1),
     uvec2(1, 9),
     uvec2(13, 1),
@@ -28,7 +28,7 @@ const SIZES: [UVec2; 6] = [
 ];
 
 /// A picture with values between -1 and 3.
-fn picture(size: UVec2) -> Vec<Vec4> {
+pub fn picture(size: UVec2) -> Vec<Vec4> {
     let mut state = 7_u32;
     let mut next = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -48,11 +48,12 @@ fn linear() -> Sampler {
 }
 
 /// Description of a chain whose pictures keep all bits.
-fn exact() -> ChainSpec {
+pub fn exact() -> ChainSpec {
     ChainSpec::from(ShaderSpec::new().format(Format::Rgba32Float)).pictures(Format::Rgba32Float)
 }
 
-fn inputs(size: UVec2) -> Inputs {
+/// Inputs of a chain that reads `color`.
+pub fn inputs(size: UVec2) -> Inputs {
     Inputs::new(size).with_image("color", Frame::new(size, picture(size)))
 }
 
@@ -63,7 +64,8 @@ fn texels(written: &[Written]) -> Vec<[u32; 4]> {
         .collect()
 }
 
-fn bits(of: &Texture<Vec4>) -> Vec<[u32; 4]> {
+/// Bits of a picture.
+pub fn bits(of: &Texture<Vec4>) -> Vec<[u32; 4]> {
     of.texels()
         .iter()
         .map(|texel| texel.to_array().map(f32::to_bits))
@@ -120,7 +122,7 @@ fn every_construct_computes_the_bits_of_rust() {
 /// Passes of one text have two kernels if a picture is computed in one of them.
 #[test]
 fn a_fused_picture_leaves_other_passes_of_its_text_alone() {
-    let compiled = compile("repeated", &exact().fuse(Fuse::Named(["current".to_owned()].into())));
+    let compiled = compile("repeated", &exact().fuse(Fuse::inline(["current"])));
     assert_eq!(compiled.fused, ["current"]);
     let kernels: Vec<&str> = compiled.passes.iter().map(|pass| pass.kernel.as_str()).collect();
     assert!(kernels[0] != kernels[1] && kernels[1] == kernels[2], "{kernels:?}");
@@ -175,22 +177,31 @@ fn what_is_fused_counts_for_the_pass_that_computes_it() {
 #[test]
 fn bloom_computes_the_bits_of_rust_with_every_option() {
     for levels in 1..=4 {
-        let mut spec = exact();
-        spec.shader = spec.shader.set("levels", levels.to_string()).set("spread", "0.6");
         let chain = Chain::from_text("bloom.rs", include_str!("../../../examples/chains/bloom.rs"), "bloom");
-        let compiled = chain
-            .compile(&spec)
-            .unwrap_or_else(|errors| panic!("{}", errors.render(false)));
-        assert_eq!(compiled.passes.len(), 2 * levels as usize);
+        let compile = |fuse: Fuse| {
+            let mut spec = exact().fuse(fuse);
+            spec.shader = spec.shader.set("levels", levels.to_string()).set("spread", "0.6");
+            let compiled = chain.compile(&spec);
+            compiled.unwrap_or_else(|errors| panic!("{}", errors.render(false)))
+        };
+        let (stored, shared) = (compile(Fuse::None), compile(Fuse::Share));
+        assert_eq!(stored.passes.len(), 2 * levels as usize);
+        assert!(shared.passes.len() <= levels as usize);
         let options = bloom::Bloom { levels, spread: 0.6 };
         for size in SIZES {
             let color = Texture::new(size, picture(size));
-            let expected = bloom::bloom(&options, &color, &linear(), 0.5, 0.3);
+            let expected = bloom::bloom(&options, &color, 0.5, 0.3);
             let inputs = inputs(size)
                 .with_uniform("threshold", &[0.5])
                 .with_uniform("strength", &[0.3]);
-            let found = interpret_chain::<f32>(&compiled, &inputs).unwrap_or_else(|e| panic!("{e}"));
-            assert!(texels(&found) == bits(&expected), "{levels} levels at {size}");
+            for compiled in [&stored, &shared] {
+                let found = interpret_chain::<f32>(compiled, &inputs).unwrap_or_else(|e| panic!("{e}"));
+                assert!(
+                    texels(&found) == bits(&expected),
+                    "{levels} levels at {size}, fused {}",
+                    compiled.fused.len()
+                );
+            }
         }
     }
 }
@@ -235,6 +246,7 @@ fn random_chains_compute_the_bits_of_rust() {
         tally.fused > 30,
         "most chains have a picture that can be fused: {tally:?}"
     );
+    assert!(tally.shared > 30, "many have pictures that can be shared: {tally:?}");
 }
 
 /// Drivers run the passes of a chain one after another, and compute the picture of the interpreter.
@@ -307,7 +319,7 @@ fn the_examples_are_the_same_pictures_on_a_gpu() {
             let with = chain.with_file(&root.join(file));
             with.unwrap_or_else(|errors| panic!("{}", errors.render(false)))
         });
-        for fuse in [Fuse::None, Fuse::All] {
+        for fuse in [Fuse::None, Fuse::All, Fuse::Share] {
             let compiled = chain.compile(&ChainSpec::from(exact().shader).fuse(fuse.clone()));
             let compiled = compiled.unwrap_or_else(|errors| panic!("{}", errors.render(false)));
             let emitted = compiled
@@ -330,5 +342,8 @@ fn the_examples_are_the_same_pictures_on_a_gpu() {
         names.push(name);
     }
     names.sort();
-    assert_eq!(names, ["bloom", "blur", "occlusion", "outline", "smaa", "temporal"]);
+    assert_eq!(
+        names,
+        ["bloom", "blur", "mips", "occlusion", "outline", "smaa", "temporal"]
+    );
 }

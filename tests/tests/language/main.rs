@@ -1,6 +1,7 @@
 //! The language: results of kernels, compared with rustc and at the edges of its values.
 
 mod arrays;
+mod cascades;
 mod chains;
 #[path = "../common/mod.rs"]
 mod common;

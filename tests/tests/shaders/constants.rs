@@ -50,6 +50,25 @@ fn constants_are_what_is_read() {
     }
 }
 
+/// A pass of a chain that writes two pictures of unlike sizes.
+#[test]
+fn outputs_with_tiles_are_what_is_read() {
+    use generated::levels::shaders::levels_quarter_cascade::{MANIFEST, SHADER};
+    let read = Shader::from_json(MANIFEST, SHADER.wgsl()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(read, SHADER);
+    let plan = ChainPlan::from_json(generated::levels::PLAN).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(plan, *generated::levels::CHAIN.plan());
+    assert_eq!(plan.passes.len(), 1);
+    let manifest = Manifest::from_json(MANIFEST).unwrap_or_else(|e| panic!("{e}"));
+    let tiles: Vec<_> = manifest.outputs.iter().map(|output| output.tile).collect();
+    assert_eq!(tiles, [Some([32, 32]), Some([16, 16])]);
+    let none = MANIFEST.replacen("[\n        32,\n        32\n      ]", "[0, 32]", 1);
+    let refused = Shader::from_json(&none, SHADER.wgsl())
+        .expect_err("no texels")
+        .to_string();
+    assert!(refused.contains("a tile has no texels"), "{refused}");
+}
+
 /// The constant of a chain is its plan in JSON, and draws the picture of the interpreter.
 #[test]
 fn a_chain_of_constants_is_the_chain_that_is_read() {

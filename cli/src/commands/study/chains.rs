@@ -51,6 +51,7 @@ pub fn measure_chains(common: &CommonArgs, args: &ChainsArgs, progress: &mut Pro
     let setup = ChainSetup {
         size: common.picture_size(),
         rounds: common.timing_rounds(),
+        most_outputs: args.most_outputs,
         least: LEAST,
     };
     let mut circumstances = run_circumstances(common, &gpu);

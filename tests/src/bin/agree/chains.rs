@@ -23,10 +23,11 @@ pub fn against_rustc(options: &Options) -> Result<(), String> {
         .map(|start| compare_chains(&rustc, start..(start + BATCH).min(end)));
     let tallies: Vec<ChainTally> = tallies.collect::<Result<_, String>>()?;
     println!(
-        "{} chains in {:.1} s compute the bits of rustc; in {} a picture is fused",
+        "{} chains in {:.1} s compute the bits of rustc; in {} a picture is fused, in {} one is shared",
         tallies.iter().map(|tally| tally.compared).sum::<usize>(),
         begin.elapsed().as_secs_f64(),
         tallies.iter().map(|tally| tally.fused).sum::<usize>(),
+        tallies.iter().map(|tally| tally.shared).sum::<usize>(),
     );
     Ok(())
 }

@@ -11,7 +11,7 @@ use straightline_codegen::{Format, ShaderSpec, Unroll};
 use straightline_kernels::prelude::{Frame, UVec2, Vec4, uvec2};
 
 /// Sizes of the frames that chains run on.
-const SIZES: [UVec2; 4] = [uvec2(1, 1), uvec2(5, 3), uvec2(8, 8), uvec2(1, 7)];
+const SIZES: [UVec2; 5] = [uvec2(1, 1), uvec2(5, 3), uvec2(8, 8), uvec2(1, 7), uvec2(37, 18)];
 
 /// Value of the uniform.
 const STRENGTH: f32 = 0.625;
@@ -232,6 +232,8 @@ pub struct ChainTally {
     pub compared: usize,
     /// Chains of which a picture was computed where it is read.
     pub fused: usize,
+    /// Chains of which workgroups computed several pictures.
+    pub shared: usize,
 }
 
 /// Compares the chains of seeds with the program of rustc: stored, fused and looped, bit for bit.
@@ -260,30 +262,34 @@ pub fn compare_chains(rustc: &Rustc, seeds: std::ops::Range<u64>) -> Result<Chai
     let mut tally = ChainTally::default();
     for (k, text) in texts.iter().enumerate() {
         let lines: Vec<&str> = expected.by_ref().take(SIZES.len()).collect();
-        tally.fused += usize::from(compare_chain(k, text, &lines).map_err(|why| format!("{text}\n{why}"))?);
+        let [fused, shared] = compare_chain(k, text, &lines).map_err(|why| format!("{text}\n{why}"))?;
+        tally.fused += usize::from(fused);
+        tally.shared += usize::from(shared);
         tally.compared += 1;
     }
     Ok(tally)
 }
 
-/// Compares one chain; returns `true` if a picture of it was fused.
-fn compare_chain(k: usize, text: &str, expected: &[&str]) -> Result<bool, String> {
+/// Compares one chain; returns whether a picture of it was fused, and one shared.
+fn compare_chain(k: usize, text: &str, expected: &[&str]) -> Result<[bool; 2], String> {
     let shader = || ShaderSpec::new().format(Format::Rgba32Float);
     let exact = |shader: ShaderSpec| ChainSpec::from(shader).pictures(Format::Rgba32Float);
     let specs = [
         exact(shader()),
         exact(shader()).fuse(Fuse::All),
         exact(shader()).fuse(Fuse::Auto),
+        exact(shader()).fuse(Fuse::Share),
         exact(shader().unroll(Unroll::None)),
     ];
     let chain = Chain::from_text("chain.rs", text, "chain");
     let all = chain.compile(&specs[1]).map_err(|errors| errors.render(false))?.fused;
     let some: BTreeSet<String> = all.into_iter().step_by(2).collect();
-    let named = exact(shader()).fuse(Fuse::Named(some.clone()));
-    let mut fused = false;
+    let named = exact(shader()).fuse(Fuse::inline(some.clone()));
+    let (mut fused, mut shared) = (false, false);
     for spec in specs.iter().chain((!some.is_empty()).then_some(&named)) {
         let compiled = chain.compile(spec).map_err(|errors| errors.render(false))?;
         fused |= !compiled.fused.is_empty();
+        shared |= !compiled.shared.is_empty();
         for (size, expected) in SIZES.iter().zip(expected) {
             let color = Frame::new(*size, (0..size.x * size.y).map(texel).collect());
             let inputs = Inputs::new(*size)
@@ -297,5 +303,5 @@ fn compare_chain(k: usize, text: &str, expected: &[&str]) -> Result<bool, String
             }
         }
     }
-    Ok(fused)
+    Ok([fused, shared])
 }

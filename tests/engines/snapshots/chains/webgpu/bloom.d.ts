@@ -8,8 +8,6 @@ export type Sized = GPUTexture | { view: GPUTextureView; width: number; height: 
 export interface Inputs {
     /** 2d, sample type unfilterable-float. */
     color: Sized;
-    /** In place of the module's own filtering sampler, which clamps to the edge. */
-    linear?: GPUSampler;
 }
 
 export interface Filter {
