@@ -79,3 +79,24 @@ fn held(mut inputs: Inputs) -> Inputs {
     }
     inputs
 }
+
+/// Pictures that a kernel writes at any place are floats of full precision.
+#[test]
+fn pictures_written_at_any_place_are_widened() {
+    let text = "
+        pub fn k(color: &Frame<Vec4>, mirrored: &StorageTexture<Vec4>, sum: &StorageTexture<f32>, pixel: IVec2) {
+            let here = color.load(pixel);
+            let last = mirrored.size().as_ivec2() - 1;
+            mirrored.store(ivec2(last.x - pixel.x, pixel.y), here * 2.0);
+            sum.store(pixel, here.x + here.y);
+        }";
+    let compiled = compile_text(text, &Settings::new());
+    let size = uvec2(9, 5);
+    let texels = (0..size.x * size.y).map(|k| Vec4::splat(k as f32 / 8.0)).collect();
+    let inputs = Inputs::new(size).with_image("color", Frame::new(size, texels));
+    let found = half_bench().run_targets(&compiled, Stage::Compute, &inputs);
+    let expected = interpret_kernel::<F16>(&compiled, &inputs, false).unwrap_or_else(|e| panic!("{e}"));
+    for (found, expected) in found.unwrap_or_else(|e| panic!("{e}")).iter().zip(&expected.targets) {
+        assert_eq!(found.texels, expected.texels, "{}", found.name);
+    }
+}

@@ -23,12 +23,16 @@ pub fn legalise_half(module: &mut Module<'_>) {
     }
 }
 
-/// Converts values that are stored in buffers back to full precision.
+/// Converts values that are stored in buffers and pictures back to full precision.
 fn widen_stored(stmt: &mut Stmt<'_>) {
-    if let StmtKind::Effect(effect) = &mut stmt.kind {
-        for arg in &mut effect.args {
-            *arg = arg.clone().into_full();
+    match &mut stmt.kind {
+        StmtKind::Effect(effect) => {
+            for arg in &mut effect.args {
+                *arg = arg.clone().into_full();
+            }
         }
+        StmtKind::Store(_, _, value) => *value = value.clone().into_full(),
+        _ => {}
     }
     stmt.blocks_mut().into_iter().flatten().for_each(widen_stored);
 }
