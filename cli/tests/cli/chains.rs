@@ -131,8 +131,20 @@ fn requests_that_mean_nothing_are_refused() {
     }
     let blur = here("examples/chains/blur.rs");
     let shared = ["emit", &blur, "--fuse", "share", "--out", out];
-    let no_groups = ["pictures cannot be shared by workgroups", "leave `--stage` out"];
-    fails(&[&shared[..], &["--stage", "fragment"]].concat(), 1, &no_groups);
+    for (option, value) in [
+        ("--stage", "fragment"),
+        ("--form", "function"),
+        ("--origin", "lower-left"),
+        ("--workgroup", "8x8"),
+        ("--share", "workgroup"),
+        ("--block", "2x2"),
+        ("--reads", "gather"),
+    ] {
+        let knob = option.trim_start_matches('-');
+        let unfit = format!("pictures cannot be shared by workgroups with this `{knob}`");
+        let instead = format!("leave `{knob}` out");
+        fails(&[&shared[..], &[option, value]].concat(), 1, &[&unfit, &instead]);
+    }
     let no_memory = [
         "computes `result` and others in the memory of workgroups",
         "leave `share` out of `--fuse`",

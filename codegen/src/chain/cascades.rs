@@ -8,6 +8,7 @@ use straightline_evaluator::diagnostic::{Code, Diagnostic};
 use straightline_evaluator::front::chain::{Chain, Source};
 use straightline_evaluator::ir::{Texture, Type};
 use straightline_evaluator::passes::{self, Cascade, Part};
+use straightline_evaluator::policy::{ReadOrder, Share};
 use straightline_manifest::chain::SizeRule;
 use straightline_manifest::{Origin, Stage};
 
@@ -37,7 +38,7 @@ impl Grouping<'_> {
     ///
     /// # Errors
     ///
-    /// A picture that is asked for by name and cannot be shared; shaders without workgroups.
+    /// A picture that is asked for by name and cannot be shared; settings that do not go with it.
     pub fn group(&self) -> Result<(Vec<Group>, Vec<Kept>), Box<Diagnostic>> {
         let mut groups: Vec<Group> = (0..self.planned.len())
             .map(|pass| Group {
@@ -53,7 +54,7 @@ impl Grouping<'_> {
         {
             return Ok((groups, Vec::new()));
         }
-        self.check_stage()?;
+        self.check_settings()?;
         let mut kept: Vec<Kept> = Vec::new();
         for reader in 0..self.planned.len() {
             while self.merge_one(&mut groups, reader, &mut kept) {}
@@ -79,19 +80,49 @@ impl Grouping<'_> {
         Ok((groups, kept))
     }
 
-    /// Refuses shaders that have no workgroups, or whose rows are turned.
-    fn check_stage(&self) -> Result<(), Box<Diagnostic>> {
-        let emit = &self.spec.shader.emit;
-        let (what, help) = if emit.stage != Stage::Compute {
-            ("a fragment shader has none", "leave `--stage` out")
-        } else if emit.region {
-            ("a shader for regions starts them anywhere", "leave `--region` out")
-        } else if emit.origin != Origin::default() {
-            ("their pictures are counted from above", "leave `--origin` out")
-        } else {
+    /// Refuses settings with which no workgroup computes several pictures.
+    fn check_settings(&self) -> Result<(), Box<Diagnostic>> {
+        let (emit, settings) = (&self.spec.shader.emit, &self.spec.shader.settings);
+        let of_threads = |size: [u32; 2]| size == passes::Cascade::THREADS;
+        let unfit = [
+            (
+                emit.stage != Stage::Compute,
+                "stage",
+                "a fragment shader has no workgroups",
+            ),
+            (emit.is_function(), "form", "a function has no workgroups"),
+            (emit.region, "region", "tiles of a region may begin anywhere"),
+            (
+                emit.origin != Origin::default(),
+                "origin",
+                "rows of tiles count from above",
+            ),
+            (
+                !emit.workgroup.is_none_or(of_threads),
+                "workgroup",
+                "their workgroups have 16x16 threads",
+            ),
+            (
+                settings.share != Share::Invocation,
+                "share",
+                "their texels are shared already",
+            ),
+            (
+                settings.block != [1, 1],
+                "block",
+                "each thread computes one texel at a time",
+            ),
+            (
+                settings.reads == ReadOrder::Gather,
+                "reads",
+                "they are read from workgroup memory",
+            ),
+        ];
+        let Some((_, knob, reason)) = unfit.into_iter().find(|(is_unfit, ..)| *is_unfit) else {
             return Ok(());
         };
-        let what = format!("pictures cannot be shared by workgroups: {what}");
+        let what = format!("pictures cannot be shared by workgroups with this `{knob}`: {reason}");
+        let help = format!("leave `{knob}` out, or `share` out of `fuse`");
         Err(Box::new(
             Diagnostic::error_at(Code::UnfitSetting, self.chain.span, what)
                 .label("this chain")

@@ -17,9 +17,6 @@ use straightline_manifest::chain::SizeRule;
 
 pub use build::compute_cascade;
 
-/// Width and height of a workgroup.
-const THREADS: [u32; 2] = [16, 16];
-
 /// Most copies of a picture's kernel in the shader: texels of the tile that a thread computes one after another.
 const MOST_TURNS: u32 = 8;
 
@@ -66,6 +63,9 @@ pub struct Cascade {
 }
 
 impl Cascade {
+    /// Width and height of every workgroup.
+    pub const THREADS: [u32; 2] = [16, 16];
+
     /// Bytes of workgroup memory.
     pub fn byte_size(&self) -> u64 {
         self.tiles.iter().map(|tile| tile.bytes).sum()
@@ -161,7 +161,7 @@ fn choose_tiles(parts: &[Part<'_>], reads: &[Read], side: u32) -> Result<Cascade
     let along = |axis: usize| choose_extents(parts, reads, i64::from(side), axis);
     let axes = [along(0)?, along(1)?];
     let last = parts.len() - 1;
-    let threads = THREADS[0] * THREADS[1];
+    let threads = Cascade::THREADS[0] * Cascade::THREADS[1];
     let tiles = parts.iter().enumerate().map(|(k, part)| {
         let along = [&axes[0][k], &axes[1][k]];
         let size = along.map(|extent| (extent.last - extent.first + 1) as u32);
@@ -176,7 +176,7 @@ fn choose_tiles(parts: &[Part<'_>], reads: &[Read], side: u32) -> Result<Cascade
         }
     });
     let cascade = Cascade {
-        threads: THREADS,
+        threads: Cascade::THREADS,
         tiles: tiles.collect(),
     };
     if cascade.byte_size() > MOST_SHARED_BYTES {
