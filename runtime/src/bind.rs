@@ -115,9 +115,9 @@ impl Pass {
                     &self.plan,
                     &self.pipeline,
                     &targets,
-                    rectangle,
-                    options.region.is_some(),
+                    (rectangle.size, options.region.is_some()),
                 ),
+                rectangle,
                 groups,
                 uniforms,
             };

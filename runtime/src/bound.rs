@@ -8,7 +8,7 @@ use crate::timer::{Span, Timer};
 use crate::uniforms::{UniformValue, Uniforms};
 use crate::{Error, Region};
 use std::sync::Arc;
-use wgpu::{CommandEncoder, Queue, TextureView};
+use wgpu::{CommandEncoder, ComputePass, Queue, RenderPass, TextureView};
 
 /// Maximum number of targets of a fragment shader: wgpu's limit on any device.
 pub(crate) const MAX_TARGETS: usize = 8;
@@ -25,6 +25,8 @@ pub(crate) const MAX_TARGETS: usize = 8;
 pub struct Bound {
     pub(crate) plan: Arc<Plan>,
     pub(crate) work: Work,
+    /// Pixels that are written.
+    pub(crate) rectangle: Region,
     pub(crate) groups: Vec<BoundGroup>,
     pub(crate) uniforms: Uniforms,
 }
@@ -41,39 +43,31 @@ pub(crate) enum Work {
         pipeline: wgpu::RenderPipeline,
         /// [`MAX_TARGETS`] at most.
         targets: Vec<TextureView>,
-        rectangle: Region,
-        load: wgpu::LoadOp<wgpu::Color>,
+        /// `true` if pixels outside of the rectangle keep their contents.
+        is_part: bool,
     },
 }
 
 impl Work {
-    /// Returns the operation with which `pipeline` fills `rectangle` of `targets`. If that is only a part, the rest keeps its
+    /// Returns the operation with which `pipeline` fills `size` pixels of `targets`. If only a part of them, the rest keeps its
     /// contents.
     pub(crate) fn new(
         plan: &Plan,
         pipeline: &Pipeline,
         targets: &[&TextureView],
-        rectangle: Region,
-        is_part: bool,
+        (size, is_part): ([u32; 2], bool),
     ) -> Work {
         match pipeline {
             Pipeline::Compute { pipeline, workgroup } => Work::Compute {
                 pipeline: pipeline.clone(),
                 workgroups: plan
                     .workgroups_of_tiles(targets.iter().map(|target| texture_size(target.texture())))
-                    .unwrap_or_else(|| {
-                        [0, 1].map(|axis| rectangle.size[axis].div_ceil(workgroup[axis] * plan.block[axis]))
-                    }),
+                    .unwrap_or_else(|| [0, 1].map(|axis| size[axis].div_ceil(workgroup[axis] * plan.block[axis]))),
             },
             Pipeline::Render(pipeline) => Work::Draw {
                 pipeline: pipeline.clone(),
                 targets: targets.iter().map(|target| (*target).clone()).collect(),
-                rectangle,
-                // Clearing spares tiled GPUs from loading the old pixels, where all of them are overwritten.
-                load: match is_part {
-                    true => wgpu::LoadOp::Load,
-                    false => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                },
+                is_part,
             },
         }
     }
@@ -100,6 +94,69 @@ impl Bound {
         let span = timer.span()?;
         self.record_pass(encoder, Some(&span));
         Ok(())
+    }
+
+    /// Records the dispatch into a compute pass of the caller's, in a debug group with the kernel's name: between other
+    /// dispatches, without a pass of its own. It checks nothing but the stage, and allocates nothing of its own.
+    ///
+    /// It sets the pipeline and the kernel's bind groups, and leaves them set. What an earlier dispatch of the pass has
+    /// written can be read: wgpu orders the dispatches of a compute pass.
+    ///
+    /// ```no_run
+    /// # use straightline_runtime::{Bound, Error, wgpu};
+    /// fn record(encoder: &mut wgpu::CommandEncoder, [blur, sharpen]: [&Bound; 2]) -> Result<(), Error> {
+    ///     let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+    ///     blur.encode_into(&mut pass)?;
+    ///     sharpen.encode_into(&mut pass)
+    /// }
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::PassKind`] for a fragment shader. Nothing has been recorded then.
+    pub fn encode_into(&self, pass: &mut ComputePass<'_>) -> Result<(), Error> {
+        let Work::Compute { pipeline, workgroups } = &self.work else {
+            return Err(self.wrong_pass());
+        };
+        pass.push_debug_group(&self.plan.kernel);
+        self.dispatch(pass, pipeline, *workgroups);
+        pass.pop_debug_group();
+        Ok(())
+    }
+
+    /// Draws the kernel over all pixels of a render pass of the caller's, in a debug group with the kernel's name. It
+    /// checks nothing but the stage, and allocates nothing of its own.
+    ///
+    /// It writes to the attachments of `pass`, not to the targets that it was bound with. They need the size and the
+    /// formats of those, one sample a pixel, and no depth or stencil buffer beside them. If they do not fit, or show an
+    /// input, wgpu reports that when the caller's encoder is finished.
+    ///
+    /// It sets the pipeline and the kernel's bind groups, and leaves them set. The scissor and the viewport of `pass`
+    /// apply; a shader for regions sets the scissor to its rectangle, and leaves it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::PassKind`] for a compute shader. Nothing has been recorded then.
+    pub fn draw_into(&self, pass: &mut RenderPass<'_>) -> Result<(), Error> {
+        let Work::Draw { pipeline, .. } = &self.work else {
+            return Err(self.wrong_pass());
+        };
+        pass.push_debug_group(&self.plan.kernel);
+        self.draw(pass, pipeline);
+        pass.pop_debug_group();
+        Ok(())
+    }
+
+    /// The error of a pass of the other kind.
+    pub(crate) fn wrong_pass(&self) -> Error {
+        Error::PassKind {
+            kernel: self.plan.kernel.to_string(),
+            is_compute: self.is_compute(),
+        }
+    }
+
+    pub(crate) fn is_compute(&self) -> bool {
+        matches!(self.work, Work::Compute { .. })
     }
 
     /// Sets the uniform `name` for the next submission to `queue`, which must be the device's own. A matrix or an array of
@@ -150,18 +207,12 @@ impl Bound {
                     label,
                     timestamp_writes: span.map(Span::compute_writes),
                 });
-                pass.set_pipeline(pipeline);
-                for (index, group) in &self.groups {
-                    pass.set_bind_group(*index, group, &[]);
-                }
-                let [across, down] = *workgroups;
-                pass.dispatch_workgroups(across, down, 1);
+                self.dispatch(&mut pass, pipeline, *workgroups);
             }
             Work::Draw {
                 pipeline,
                 targets,
-                rectangle,
-                load,
+                is_part,
             } => {
                 // On the stack: nothing is allocated here.
                 let attachments: [_; MAX_TARGETS] = std::array::from_fn(|k| {
@@ -170,7 +221,11 @@ impl Bound {
                         depth_slice: None,
                         resolve_target: None,
                         ops: wgpu::Operations {
-                            load: *load,
+                            // Clearing spares tiled GPUs from loading the old pixels, where all of them are overwritten.
+                            load: match is_part {
+                                true => wgpu::LoadOp::Load,
+                                false => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                            },
                             store: wgpu::StoreOp::Store,
                         },
                     })
@@ -183,14 +238,29 @@ impl Bound {
                     occlusion_query_set: None,
                     multiview_mask: None,
                 });
-                pass.set_pipeline(pipeline);
-                for (index, group) in &self.groups {
-                    pass.set_bind_group(*index, group, &[]);
-                }
-                let ([x, y], [width, height]) = (rectangle.place, rectangle.size);
-                pass.set_scissor_rect(x, y, width, height);
-                pass.draw(0..3, 0..1);
+                self.draw(&mut pass, pipeline);
             }
         }
+    }
+
+    fn dispatch(&self, pass: &mut ComputePass<'_>, pipeline: &wgpu::ComputePipeline, [across, down]: [u32; 2]) {
+        pass.set_pipeline(pipeline);
+        for (index, group) in &self.groups {
+            pass.set_bind_group(*index, group, &[]);
+        }
+        pass.dispatch_workgroups(across, down, 1);
+    }
+
+    fn draw(&self, pass: &mut RenderPass<'_>, pipeline: &wgpu::RenderPipeline) {
+        pass.set_pipeline(pipeline);
+        for (index, group) in &self.groups {
+            pass.set_bind_group(*index, group, &[]);
+        }
+        // Any other shader fills all of its targets.
+        if self.plan.region.is_some() {
+            let ([x, y], [width, height]) = (self.rectangle.place, self.rectangle.size);
+            pass.set_scissor_rect(x, y, width, height);
+        }
+        pass.draw(0..3, 0..1);
     }
 }

@@ -87,27 +87,37 @@ impl Handwritten {
 
     fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
         match self {
-            Handwritten::Compute(pipeline, group) => {
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                    label: Some("copy"),
-                    timestamp_writes: None,
-                });
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, group, &[]);
-                pass.dispatch_workgroups(SIZE[0] / 8, SIZE[1] / 8, 1);
-            }
+            Handwritten::Compute(..) => compute(encoder, |pass| self.dispatch(pass)),
             Handwritten::Render(pipeline, group, target) => {
                 render(encoder, target, |pass| {
                     pass.set_pipeline(pipeline);
                     pass.set_bind_group(0, group, &[]);
+                    pass.draw(0..3, 0..1);
                 });
             }
         }
     }
+
+    fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>) {
+        let Handwritten::Compute(pipeline, group) = self else {
+            panic!("a compute shader");
+        };
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, group, &[]);
+        pass.dispatch_workgroups(SIZE[0] / 8, SIZE[1] / 8, 1);
+    }
 }
 
-/// Draws one triangle over all of `target`, with the pipeline and groups that `set` sets.
-fn render(encoder: &mut wgpu::CommandEncoder, target: &TextureView, set: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
+/// Opens a compute pass.
+fn compute(encoder: &mut wgpu::CommandEncoder, record: impl FnOnce(&mut wgpu::ComputePass<'_>)) {
+    record(&mut encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+        label: Some("copy"),
+        timestamp_writes: None,
+    }));
+}
+
+/// Opens a render pass to `target`.
+fn render(encoder: &mut wgpu::CommandEncoder, target: &TextureView, record: impl FnOnce(&mut wgpu::RenderPass<'_>)) {
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("copy"),
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -121,9 +131,7 @@ fn render(encoder: &mut wgpu::CommandEncoder, target: &TextureView, set: impl Fn
         })],
         ..Default::default()
     });
-    set(&mut pass);
-    pass.set_scissor_rect(0, 0, SIZE[0], SIZE[1]);
-    pass.draw(0..3, 0..1);
+    record(&mut pass);
 }
 
 /// Counts the allocations of recording one frame.
@@ -170,6 +178,38 @@ fn a_frame_allocates_what_wgpu_does() {
             |encoder| handwritten.encode(encoder),
             stage.name(),
         );
+        match &handwritten {
+            Handwritten::Compute(..) => same(
+                &gpu,
+                |encoder| compute(encoder, |pass| bound.encode_into(pass).expect("a compute shader")),
+                |encoder| {
+                    compute(encoder, |pass| {
+                        pass.push_debug_group("copy");
+                        handwritten.dispatch(pass);
+                        pass.pop_debug_group();
+                    });
+                },
+                "in a compute pass",
+            ),
+            Handwritten::Render(pipeline, group, _) => same(
+                &gpu,
+                |encoder| {
+                    render(encoder, &target, |pass| {
+                        bound.draw_into(pass).expect("a fragment shader")
+                    })
+                },
+                |encoder| {
+                    render(encoder, &target, |pass| {
+                        pass.push_debug_group("copy");
+                        pass.set_pipeline(pipeline);
+                        pass.set_bind_group(0, group, &[]);
+                        pass.draw(0..3, 0..1);
+                        pass.pop_debug_group();
+                    });
+                },
+                "in a render pass",
+            ),
+        }
     }
     let Fixture { manifest, wgsl } = COPY.emit(Stage::Fragment);
     let target = view(&gpu.target(SIZE));
@@ -179,7 +219,12 @@ fn a_frame_allocates_what_wgpu_does() {
     let handwritten = Handwritten::new(&gpu, Stage::Fragment, &color, &target);
     same(
         &gpu,
-        |encoder| render(encoder, &target, |pass| bound.set(pass)),
+        |encoder| {
+            render(encoder, &target, |pass| {
+                bound.set(pass);
+                pass.draw(0..3, 0..1);
+            });
+        },
         |encoder| handwritten.encode(encoder),
         "drawn",
     );
@@ -217,5 +262,23 @@ fn a_frame_of_a_chain_allocates_what_its_passes_do() {
             },
             stage.name(),
         );
+        if let Stage::Compute = stage {
+            same(
+                &gpu,
+                |encoder| compute(encoder, |pass| bound.encode_into(pass).expect("compute shaders")),
+                |encoder| {
+                    compute(encoder, |pass| {
+                        pass.push_debug_group(bound.name());
+                        for dispatch in &handwritten {
+                            pass.push_debug_group("copy");
+                            dispatch.dispatch(pass);
+                            pass.pop_debug_group();
+                        }
+                        pass.pop_debug_group();
+                    });
+                },
+                "in a compute pass",
+            );
+        }
     }
 }

@@ -4,7 +4,7 @@ use super::pictures::Memory;
 use super::recipe::Recipe;
 use crate::{Bound, Error, Timer, UniformValue};
 use std::sync::Arc;
-use wgpu::{CommandEncoder, Queue, TextureView};
+use wgpu::{CommandEncoder, ComputePass, Queue, TextureView};
 
 /// A [`Chain`](crate::Chain) with its inputs, targets, uniforms and the textures between its passes: made by
 /// [`Chain::bind`](crate::Chain::bind), and recorded any number of times.
@@ -45,6 +45,24 @@ impl BoundChain {
             pass.encode(encoder);
         }
         encoder.pop_debug_group();
+    }
+
+    /// Records all passes into a compute pass of the caller's, one dispatch after another, in a debug group with the
+    /// chain's name: see [`Bound::encode_into`].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Chain`] with [`Error::PassKind`] for the first pass with a fragment shader. Nothing has been recorded
+    /// then.
+    pub fn encode_into(&self, pass: &mut ComputePass<'_>) -> Result<(), Error> {
+        let mut pairs = self.passes.iter().zip(self.recipe.plan.passes.iter());
+        if let Some((bound, plan)) = pairs.find(|(bound, _)| !bound.is_compute()) {
+            return Err(self.recipe.name_pass(plan, &bound.plan, bound.wrong_pass()));
+        }
+        pass.push_debug_group(self.name());
+        let recorded = self.passes.iter().try_for_each(|bound| bound.encode_into(pass));
+        pass.pop_debug_group();
+        recorded
     }
 
     /// [`encode`](Self::encode), timed on the GPU: each pass is a span of `timer`, in the order of

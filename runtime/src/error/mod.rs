@@ -316,6 +316,15 @@ pub enum Error {
         problem: String,
     },
 
+    /// A compute shader was to be recorded into a render pass, or a fragment shader into a compute pass.
+    #[error("{}", pass_kind_advice(.kernel, *.is_compute))]
+    PassKind {
+        /// The kernel's name.
+        kernel: String,
+        /// `true` if the shader is a compute shader.
+        is_compute: bool,
+    },
+
     /// A uniform was named that the kernel does not have.
     #[error("`{kernel}` has no uniform `{name}`; it has {known}")]
     UnknownUniform {
@@ -447,4 +456,14 @@ pub enum Error {
         /// wgpu's message.
         description: String,
     },
+}
+
+fn pass_kind_advice(kernel: &str, is_compute: bool) -> String {
+    let (own, other, method, into) = match is_compute {
+        true => ("compute", "fragment", "encode_into", "a render pass"),
+        false => ("fragment", "compute", "draw_into", "a compute pass"),
+    };
+    format!(
+        "`{kernel}` is a {own} shader and cannot be recorded into {into}: call `{method}`, or generate it for the stage `{other}`"
+    )
 }

@@ -8,6 +8,7 @@ mod common;
 mod dependencies;
 mod dispatch;
 mod draw;
+mod encode_into;
 mod errors_binding;
 mod errors_chains;
 mod errors_making;
