@@ -61,6 +61,7 @@
 
 mod bind;
 mod bound;
+mod cache;
 mod chain;
 mod draw;
 mod error;
@@ -86,6 +87,7 @@ mod travelling;
 mod uniforms;
 
 pub use bound::Bound;
+pub use cache::{CacheOrigin, PipelineCacheFile};
 pub use chain::{BoundChain, Chain, ChainShaders};
 pub use draw::{BoundDraw, Draw, DrawOptions, VertexShader};
 pub use error::{BufferProblem, ChainProblem, Error, Names, SamplerProblem, ViewProblem};

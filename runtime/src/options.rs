@@ -18,6 +18,8 @@ pub struct PassOptions {
     /// Values of options that the shader takes when the pipeline is created, by name; the others have the manifest's
     /// defaults.
     pub overrides: Vec<(String, OverrideValue)>,
+    /// Cache that the driver looks the pipeline up in, and adds it to.
+    pub cache: Option<wgpu::PipelineCache>,
 }
 
 impl PassOptions {
@@ -42,6 +44,13 @@ impl PassOptions {
     /// Sets the format of the target that the kernel calls `name`.
     pub fn format_of(mut self, name: &str, format: TextureFormat) -> Self {
         self.formats.push((name.to_owned(), format));
+        self
+    }
+
+    /// Looks pipelines up in a cache of the same device, and adds them to it: one of
+    /// [`PipelineCacheFile::cache`](crate::PipelineCacheFile::cache), or of the caller's.
+    pub fn pipeline_cache(mut self, cache: Option<&wgpu::PipelineCache>) -> Self {
+        self.cache = cache.cloned();
         self
     }
 

@@ -5,7 +5,7 @@ use crate::inputs::Abilities;
 use crate::layout::Layout;
 use crate::module::Source;
 use crate::overrides::{chosen_overrides, pipeline_constants};
-use crate::pipeline::{Pipeline, check_formats};
+use crate::pipeline::{Choices, Pipeline, check_formats};
 use crate::plan::Plan;
 use crate::{Error, PassOptions, Shader};
 use std::sync::Arc;
@@ -57,7 +57,12 @@ impl Pass {
         let doing = format!("making a pass of `{}`", plan.kernel);
         let loss_probe = LossProbe::new(device, &doing)?;
         let layout = Layout::new(device, &plan)?;
-        let (pipeline, creation_time) = Pipeline::new(device, &plan, &layout, source, (&formats, &constants))?;
+        let choices = Choices {
+            formats: &formats,
+            constants: &constants,
+            cache: options.cache.as_ref(),
+        };
+        let (pipeline, creation_time) = Pipeline::new(device, &plan, &layout, source, choices)?;
         // Lost meanwhile, everything above was made without complaint and is dead.
         loss_probe.check(device, &doing)?;
         Ok(Pass {

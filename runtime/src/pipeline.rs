@@ -12,6 +12,16 @@ use straightline_manifest::Component;
 use web_time::Instant;
 use wgpu::{Device, TextureFormat};
 
+/// Options of a pipeline that the plan leaves open.
+#[derive(Clone, Copy)]
+pub(crate) struct Choices<'a> {
+    /// Formats of the targets.
+    pub(crate) formats: &'a [TextureFormat],
+    /// Numbers and values of overrides.
+    pub(crate) constants: &'a [(String, f64)],
+    pub(crate) cache: Option<&'a wgpu::PipelineCache>,
+}
+
 /// A pipeline of either stage.
 #[derive(Clone, Debug)]
 pub(crate) enum Pipeline {
@@ -23,14 +33,13 @@ pub(crate) enum Pipeline {
 }
 
 impl Pipeline {
-    /// Compiles a shader for targets of `formats` with overrides at `constants`, and tells how long making the pipeline
-    /// took once the shader was checked.
+    /// Compiles a shader, and returns the time that making the pipeline took once the shader was checked.
     pub(crate) fn new(
         device: &Device,
         plan: &Plan,
         layout: &Layout,
         source: Source<'_>,
-        (formats, constants): (&[TextureFormat], &[(String, f64)]),
+        choices: Choices<'_>,
     ) -> Result<(Self, Duration), Error> {
         let kernel = &plan.kernel;
         let label = Some(kernel.as_ref());
@@ -53,10 +62,10 @@ impl Pipeline {
                         module: &module,
                         entry_point: Some(&plan.entry_point),
                         compilation_options: wgpu::PipelineCompilationOptions {
-                            constants: &borrow_constants(constants),
+                            constants: &borrow_constants(choices.constants),
                             zero_initialize_workgroup_memory: !fills_memory,
                         },
-                        cache: None,
+                        cache: choices.cache,
                     })
                 })?;
                 Pipeline::Compute { pipeline, workgroup }
@@ -74,7 +83,7 @@ impl Pipeline {
                     multisample: wgpu::MultisampleState::default(),
                     blend: None,
                 };
-                let pipeline = render_pipeline(device, plan, layout, (side, &module), (formats, constants))?;
+                let pipeline = render_pipeline(device, plan, layout, (side, &module), choices)?;
                 Pipeline::Render(pipeline)
             }
         };
@@ -94,16 +103,17 @@ pub(crate) struct VertexSide<'a> {
     pub(crate) blend: Option<wgpu::BlendState>,
 }
 
-/// A pipeline that draws with the plan's fragment shader to targets of `formats`, with overrides at `constants`.
+/// A pipeline that draws with the plan's fragment shader.
 pub(crate) fn render_pipeline(
     device: &Device,
     plan: &Plan,
     layout: &Layout,
     (side, fragment): (VertexSide<'_>, &wgpu::ShaderModule),
-    (formats, constants): (&[TextureFormat], &[(String, f64)]),
+    choices: Choices<'_>,
 ) -> Result<wgpu::RenderPipeline, Error> {
     let kernel = &plan.kernel;
-    let targets: Vec<_> = formats
+    let targets: Vec<_> = choices
+        .formats
         .iter()
         .map(|format| {
             Some(wgpu::ColorTargetState {
@@ -133,13 +143,13 @@ pub(crate) fn render_pipeline(
                 module: fragment,
                 entry_point: Some(&plan.entry_point),
                 compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &borrow_constants(constants),
+                    constants: &borrow_constants(choices.constants),
                     ..wgpu::PipelineCompilationOptions::default()
                 },
                 targets: &targets,
             }),
             multiview_mask: None,
-            cache: None,
+            cache: choices.cache,
         })
     })
 }

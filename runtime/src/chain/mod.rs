@@ -138,7 +138,9 @@ impl Chain {
                     let (_, shader) = shaders[step.shader];
                     let outputs = shader.plan.outputs.iter().zip(&wanted.1);
                     let of_shader = |name: &str| shader.plan.overrides.iter().any(|of| of.name == name);
-                    let mut bare = PassOptions::default().unbounded_loops(options.unbounded_loops);
+                    let mut bare = PassOptions::default()
+                        .unbounded_loops(options.unbounded_loops)
+                        .pipeline_cache(options.cache.as_ref());
                     let overrides = options.overrides.iter().filter(|(name, _)| of_shader(name));
                     bare.overrides.extend(overrides.cloned());
                     let options = outputs.fold(bare, |options, (output, format)| {

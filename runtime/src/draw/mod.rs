@@ -10,7 +10,7 @@ use crate::layout::{BoundGroup, Layout};
 use crate::module::Source;
 use crate::overrides::{chosen_overrides, pipeline_constants};
 use crate::pass::check_features;
-use crate::pipeline::{VertexSide, check_formats, render_pipeline};
+use crate::pipeline::{Choices, VertexSide, check_formats, render_pipeline};
 use crate::plan::{Plan, StagePlan};
 use crate::uniforms::{UniformValue, Uniforms};
 use crate::{BindOptions, Resource, Shader};
@@ -106,7 +106,12 @@ impl Draw {
             multisample: options.multisample,
             blend: options.blend,
         };
-        let pipeline = render_pipeline(device, &plan, &layout, (side, &fragment), (&formats, &constants));
+        let choices = Choices {
+            formats: &formats,
+            constants: &constants,
+            cache: options.pass.cache.as_ref(),
+        };
+        let pipeline = render_pipeline(device, &plan, &layout, (side, &fragment), choices);
         let pipeline = pipeline.map_err(|error| vertices::explain_error(error, &plan, &options.vertex))?;
         loss_probe.check(device, &doing)?;
         Ok(Draw {

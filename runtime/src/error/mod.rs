@@ -419,6 +419,10 @@ pub enum Error {
         name: String,
     },
 
+    /// The file of a pipeline cache cannot be written.
+    #[error(transparent)]
+    Write(#[from] straightline_files::WriteError),
+
     /// A timer was asked to time more, or less, than it can.
     #[error("a timer can hold 1 to {max} spans, not {asked}")]
     TimerCapacity {

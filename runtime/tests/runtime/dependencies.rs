@@ -39,6 +39,7 @@ fn set(names: &[&str]) -> BTreeSet<String> {
 #[test]
 fn constants_need_nothing_that_parses() {
     let own = [
+        "straightline-files",
         "straightline-manifest",
         "straightline-runtime",
         "thiserror",

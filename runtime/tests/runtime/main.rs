@@ -1,5 +1,6 @@
 //! Passes on a device: making, binding, dispatching, drawing, and every error.
 
+mod cache;
 mod chains;
 mod chains_history;
 mod chains_made;
