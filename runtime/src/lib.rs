@@ -38,7 +38,8 @@
 //!
 //! Every failure is an [`Error`] that names what is at fault and what to do: a wrong view, a shader that is not
 //! its manifest's, a lost device. Errors that wgpu raises meanwhile are caught in error scopes and do not reach the
-//! device's own handler; the device's callbacks are left alone.
+//! device's own handler; the device's callbacks are left alone. Scopes belong to the thread that makes a pass, so several threads may
+//! make passes at once ([`Pending`]).
 //!
 //! # Features
 //!
@@ -73,6 +74,7 @@ mod options;
 mod overrides;
 mod pass;
 mod passes;
+mod pending;
 mod pipeline;
 #[doc(hidden)]
 pub mod plan;
@@ -95,6 +97,7 @@ pub use options::{BindOptions, PassOptions};
 pub use overrides::OverrideValue;
 pub use pass::Pass;
 pub use passes::Passes;
+pub use pending::Pending;
 pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quads};
 pub use region::Region;
 pub use resource::{Resource, ResourceKind};

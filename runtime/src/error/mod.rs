@@ -159,6 +159,10 @@ pub enum Error {
         doing: String,
     },
 
+    /// The system starts no thread for a [`Pending`](crate::Pending).
+    #[error("cannot start a thread: {0}")]
+    Thread(#[source] std::io::Error),
+
     /// An input of the kernel was not given.
     #[error("`{kernel}` was not given its input `{name}`; it reads {known}")]
     MissingInput {

@@ -16,6 +16,7 @@ mod errors_making;
 mod errors_resources;
 mod errors_uniforms;
 mod overrides;
+mod pending;
 mod quads;
 mod resources;
 mod timer;
