@@ -46,6 +46,9 @@
 //! - `manifest`: reads manifests, and compares texts with them by naga: `Shader::from_json`, `Pass::from_json`. Without it the crate
 //!   has no naga, serde or serde_json of its own, and nothing but the WGSL is parsed, by wgpu.
 //!
+//! - `reload`: generates kernels again while the program runs, when their files change: `Reloading`. It brings the generator, and is
+//!   for development.
+//!
 //! # What an emitted shader looks like
 //!
 //! - Compute: one invocation a pixel, in workgroups that tile the target; an invocation outside of it returns. The
@@ -80,6 +83,8 @@ mod pipeline;
 pub mod plan;
 mod quads;
 mod region;
+#[cfg(feature = "reload")]
+mod reload;
 mod resource;
 mod shader;
 mod targets;
@@ -100,8 +105,12 @@ pub use passes::Passes;
 pub use pending::Pending;
 pub use quads::{Arrivals, DerivativeControl, DerivativeKind, QuadTransport, Quads};
 pub use region::Region;
+#[cfg(feature = "reload")]
+pub use reload::Reloading;
 pub use resource::{Resource, ResourceKind};
 pub use shader::Shader;
+#[cfg(feature = "reload")]
+pub use straightline_codegen::KernelConfig;
 pub use straightline_manifest as manifest;
 pub use targets::Targets;
 pub use timer::{Span, Timer};

@@ -4,7 +4,7 @@ use super::error::{Error, Problem};
 use super::shader::{BuiltShader, build_shader};
 use super::variants::{BuiltVariants, build_variants};
 use crate::chain::{Chain, ChainSpec, CompiledChain, EmittedChain};
-use crate::emit::{self, Modules};
+use crate::emit::{self, Emitted, Modules};
 use crate::kernel::Kernel;
 use crate::spec::{KernelConfig, Source, Target};
 use std::collections::BTreeMap;
@@ -69,6 +69,20 @@ impl Built {
                 compiled: &chain.0,
                 emitted: &chain.1,
             }),
+        }
+    }
+}
+
+impl KernelConfig {
+    /// Generates the shader, and writes no files.
+    ///
+    /// # Errors
+    ///
+    /// Every error of the kernel. A chain and a set of variants are refused: they are not one shader.
+    pub fn emit(&self) -> Result<Emitted, Error> {
+        match Built::new(self)? {
+            Built::Shader(shader) => Ok(shader.emitted),
+            other => Err(Error::from_problem(Problem::Several(other.name().to_owned()))),
         }
     }
 }

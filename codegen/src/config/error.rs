@@ -18,6 +18,8 @@ pub(super) enum Problem {
     Variant(String, #[source] Errors),
     #[error("variants of `{0}`: {1}")]
     Variants(String, String),
+    #[error("`{0}` is a chain or a set of variants, and one shader is wanted: generate it by `Config`")]
+    Several(String),
     #[error(transparent)]
     Write(WriteError),
     #[error("`{0}` is built in and has one function: leave `.function(...)` out")]

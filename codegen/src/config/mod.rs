@@ -72,8 +72,7 @@ impl Config {
 
     /// Adds a kernel of the caller's crate with options.
     pub fn file_with(mut self, path: impl AsRef<Path>, options: impl FnOnce(KernelConfig) -> KernelConfig) -> Self {
-        let source = Source::File(path.as_ref().to_owned());
-        self.kernels.push(options(KernelConfig::new(source)));
+        self.kernels.push(options(KernelConfig::from_file(path)));
         self
     }
 
@@ -86,11 +85,7 @@ impl Config {
     /// Prints the files that the shaders depend on, for cargo.
     fn print_dependencies(&self) {
         for kernel in &self.kernels {
-            let own = match &kernel.source {
-                Source::File(path) => Some(path),
-                Source::Builtin(_) => None,
-            };
-            for path in own.into_iter().chain(&kernel.sources) {
+            for path in kernel.files() {
                 println!("cargo::rerun-if-changed={}", path.display());
             }
         }

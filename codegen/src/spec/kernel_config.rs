@@ -50,6 +50,26 @@ impl KernelConfig {
         }
     }
 
+    /// A kernel of a file, with options at their defaults: for a program that generates it when it runs.
+    ///
+    /// ```no_run
+    /// # use straightline_codegen::KernelConfig;
+    /// let emitted = KernelConfig::from_file("src/kernels/glow.rs").set("radius", 4).emit()?;
+    /// # Ok::<(), straightline_codegen::config::Error>(())
+    /// ```
+    pub fn from_file(path: impl AsRef<Path>) -> Self {
+        Self::new(Source::File(path.as_ref().to_owned()))
+    }
+
+    /// The files that the shader is generated of; none of a built-in kernel.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let own = match &self.source {
+            Source::File(path) => Some(path),
+            Source::Builtin(_) => None,
+        };
+        own.into_iter().chain(&self.sources).map(PathBuf::as_path)
+    }
+
     /// Describes the shader by `spec`, in place of what was said before: for one description of several shaders.
     ///
     /// ```

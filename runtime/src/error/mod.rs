@@ -23,6 +23,34 @@ pub enum Error {
     #[error(transparent)]
     Manifest(#[from] straightline_manifest::Error),
 
+    /// The kernel was refused by the generator.
+    #[cfg(feature = "reload")]
+    #[error("{message}")]
+    Generate {
+        /// The generator's message, in rustc's form, with its place in the file.
+        message: String,
+    },
+
+    /// A kernel that was changed binds other resources than before.
+    #[cfg(feature = "reload")]
+    #[error("`{kernel}` was changed and binds other resources: {change}; restart the program for this change")]
+    Changed {
+        /// The kernel's name.
+        kernel: String,
+        /// The first difference, such as ``input `mask` is new``.
+        change: String,
+    },
+
+    /// A binding was to be renewed that belongs to another pass.
+    #[cfg(feature = "reload")]
+    #[error("a binding of `{bound}` was given to renew, and it was not made by the `Reloading` of `{kernel}`")]
+    NotOurs {
+        /// The kernel that is reloaded.
+        kernel: String,
+        /// The kernel of the binding.
+        bound: String,
+    },
+
     /// The manifest contradicts itself or describes something that no shader of this generator needs.
     #[error("manifest of `{kernel}`: {place}: {problem}; generate the shader and its manifest again")]
     BadManifest {

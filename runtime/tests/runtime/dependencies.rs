@@ -64,3 +64,10 @@ fn manifests_are_read_behind_a_feature() {
         "{all:?}"
     );
 }
+
+#[test]
+fn the_generator_is_behind_a_feature() {
+    let generator = "straightline-codegen";
+    assert!(!packages(&["--features", "manifest"]).contains(generator));
+    assert!(packages(&["--features", "reload"]).contains(generator));
+}

@@ -18,5 +18,6 @@ mod errors_uniforms;
 mod overrides;
 mod pending;
 mod quads;
+mod reload;
 mod resources;
 mod timer;
