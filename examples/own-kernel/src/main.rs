@@ -1,6 +1,11 @@
-//! Shows a picture through a lens: `cargo run -- PICTURE.png OUT.png [STRENGTH]`.
+//! Shows a picture through a lens: `cargo run -- PICTURE.png OUT.png [STRENGTH]`. With `--features reload`, it goes on and
+//! writes the picture again whenever the kernel's file changes.
 
-use straightline_runtime::wgpu;
+#[cfg(feature = "reload")]
+mod watch;
+
+use std::error::Error;
+use straightline_runtime::{Bound, wgpu};
 use wgpu::{TextureFormat, TextureUsages};
 
 /// Output of `build.rs`: a module for each kernel.
@@ -14,7 +19,7 @@ mod shaders {
 #[allow(dead_code, reason = "the program runs it as a shader")]
 mod lens;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);
     let (Some(from), Some(to)) = (words.next(), words.next()) else {
         return Err("usage: own-kernel PICTURE.png OUT.png [STRENGTH]".into());
@@ -47,7 +52,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // The kernel.
     let lens = shaders::lens::Pass::new(&device)?;
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     let linear = device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
@@ -56,9 +60,26 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let whole = wgpu::TextureViewDescriptor::default();
     let (image, target) = (input.create_view(&whole), output.create_view(&whole));
     let inputs = shaders::lens::Inputs { image: &image, linear: &linear };
-    lens.bind(&inputs, &shaders::lens::Parameters::new(strength), &target)?.encode(&mut encoder);
+    let bound = lens.bind(&inputs, &shaders::lens::Parameters::new(strength), &target)?;
+    write(&to, &device, &queue, &output, bound.inner())?;
+    #[cfg(feature = "reload")]
+    watch::watch(&device, &inputs, strength, &target, |bound| write(&to, &device, &queue, &output, bound))?;
+    Ok(())
+}
 
-    // Read back from the device and write to a file.
+/// Runs the kernel, and writes its output to a file.
+fn write(
+    to: &str,
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    output: &wgpu::Texture,
+    kernel: &Bound,
+) -> Result<(), Box<dyn Error>> {
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    kernel.encode(&mut encoder);
+
+    // Read back from the device.
+    let (width, height) = (output.width(), output.height());
     let row = (8 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
