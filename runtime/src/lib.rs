@@ -87,6 +87,8 @@ mod region;
 mod reload;
 mod resource;
 mod shader;
+#[cfg(feature = "manifest")]
+mod source;
 mod targets;
 mod timer;
 #[cfg(feature = "manifest")]

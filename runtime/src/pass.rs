@@ -41,7 +41,7 @@ impl Pass {
     pub fn from_shader(device: &Device, shader: &Shader<'_>, options: &PassOptions) -> Result<Self, Error> {
         check_varyings(&shader.plan)?;
         let source = Source::from_shader(shader, options);
-        Self::from_plan(device, shader.plan.clone(), source, options)
+        Self::from_plan(device, shader.plan.clone(), source, options).map_err(|error| shader.locate(error))
     }
 
     /// A pass of a shader whose plan is `plan`.

@@ -1,5 +1,6 @@
 //! A shader with everything that is known of it before there is a device.
 
+use crate::Error;
 use crate::plan::Plan;
 use std::borrow::Cow;
 use straightline_manifest::text_hash;
@@ -16,6 +17,8 @@ pub struct Shader<'a> {
     pub(crate) loops: Loops,
     /// [`text_hash`] of the text.
     pub(crate) hash: u64,
+    #[cfg(feature = "manifest")]
+    pub(crate) source_map: Option<std::sync::Arc<straightline_manifest::SourceMap>>,
 }
 
 impl Shader<'static> {
@@ -32,6 +35,8 @@ impl Shader<'static> {
             wgsl,
             loops,
             hash,
+            #[cfg(feature = "manifest")]
+            source_map: None,
         }
     }
 }
@@ -45,6 +50,15 @@ impl Shader<'_> {
     /// The text.
     pub fn wgsl(&self) -> &str {
         self.wgsl
+    }
+
+    /// Adds places in the kernel's source to an error, if the shader has a source map.
+    pub(crate) fn locate(&self, error: Error) -> Error {
+        #[cfg(feature = "manifest")]
+        if let Some(map) = &self.source_map {
+            return crate::source::locate_error(error, map);
+        }
+        error
     }
 }
 

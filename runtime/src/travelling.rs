@@ -3,8 +3,9 @@
 use crate::error::Error;
 use crate::plan::Plan;
 use crate::shader::{Loops, LoopsEnd};
+use crate::source::locate_error;
 use crate::{Draw, DrawOptions, Pass, PassOptions, Shader};
-use straightline_manifest::{Manifest, SCHEMA, hash_of_text, text_hash};
+use straightline_manifest::{Manifest, SCHEMA, SourceMap, hash_of_text, text_hash};
 use wgpu::Device;
 
 impl<'a> Shader<'a> {
@@ -36,6 +37,30 @@ impl<'a> Shader<'a> {
             wgsl,
             loops,
             hash,
+            source_map: None,
+        })
+    }
+
+    /// [`from_manifest`](Self::from_manifest) with the text's source map, which the setting `debug` writes beside it.
+    /// [`Error::Shader`] and [`Error::Pipeline`] then also name the place in the kernel's source, here and where a pass
+    /// is made of the shader.
+    ///
+    /// ```no_run
+    /// # use straightline_runtime::{Error, Pass, PassOptions, Shader, manifest::{Manifest, SourceMap}, wgpu::Device};
+    /// # fn load(device: &Device, [manifest, wgsl, map]: [&str; 3]) -> Result<Pass, Error> {
+    /// let shader = Shader::with_source_map(&Manifest::from_json(manifest)?, wgsl, SourceMap::from_json(map)?)?;
+    /// Pass::from_shader(device, &shader, &PassOptions::default())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`from_manifest`](Self::from_manifest).
+    pub fn with_source_map(manifest: &Manifest, wgsl: &'a str, map: SourceMap) -> Result<Self, Error> {
+        let shader = Self::from_manifest(manifest, wgsl).map_err(|error| locate_error(error, &map))?;
+        Ok(Shader {
+            source_map: Some(map.into()),
+            ..shader
         })
     }
 

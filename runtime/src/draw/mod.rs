@@ -96,7 +96,8 @@ impl Draw {
         let loss_probe = LossProbe::new(device, &doing)?;
         let layout = Layout::with_groups(device, &plan, &options.groups)?;
         let vertices = vertices::vertex_module(device, &plan, &options.vertex)?;
-        let fragment = Source::from_shader(shader, &options.pass).create_module(device, &plan)?;
+        let fragment = Source::from_shader(shader, &options.pass).create_module(device, &plan);
+        let fragment = fragment.map_err(|error| shader.locate(error))?;
         let side = VertexSide {
             module: &vertices,
             entry_point: options.vertex.entry_point(),

@@ -11,6 +11,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 use straightline_codegen::KernelConfig;
+use straightline_codegen::spec::DebugInfo;
 use web_time::Instant;
 use wgpu::Device;
 
@@ -75,6 +76,8 @@ impl Reloading {
     /// [`Error::Generate`] for an error of the kernel; a chain and a set of variants are refused. Those of
     /// [`Pass::from_shader`].
     pub fn new(device: &Device, config: KernelConfig, options: &PassOptions) -> Result<Self, Error> {
+        // Errors of wgpu then name the place in the kernel.
+        let config = config.debug(DebugInfo::Map);
         let stamps = config.files().map(read_stamp).collect();
         let pass = make_pass(device, &config, options, None)?;
         Ok(Reloading {
@@ -168,7 +171,11 @@ fn make_pass(
     let emitted = config.emit().map_err(|error| Error::Generate {
         message: error.to_string(),
     })?;
-    let shader = Shader::from_manifest(&emitted.manifest, emitted.wgsl())?;
+    let (manifest, wgsl) = (&emitted.manifest, emitted.wgsl());
+    let shader = match emitted.source_map.clone() {
+        Some(map) => Shader::with_source_map(manifest, wgsl, map)?,
+        None => Shader::from_manifest(manifest, wgsl)?,
+    };
     if let Some(change) = plan.and_then(|plan| find_change(plan, &shader.plan)) {
         return Err(Error::Changed {
             kernel: shader.kernel().to_owned(),

@@ -20,4 +20,5 @@ mod pending;
 mod quads;
 mod reload;
 mod resources;
+mod source_map;
 mod timer;
