@@ -128,8 +128,9 @@ impl Bound {
     /// checks nothing but the stage, and allocates nothing of its own.
     ///
     /// It writes to the attachments of `pass`, not to the targets that it was bound with. They need the size and the
-    /// formats of those, one sample a pixel, and no depth or stencil buffer beside them. If they do not fit, or show an
-    /// input, wgpu reports that when the caller's encoder is finished.
+    /// formats of those, one sample a pixel, and no depth or stencil buffer beside them. wgpu reports an attachment that
+    /// does not fit, or that shows an input, when the caller's encoder is finished. It does not report another size: then
+    /// the shader reads outside of its inputs.
     ///
     /// It sets the pipeline and the kernel's bind groups, and leaves them set. The scissor and the viewport of `pass`
     /// apply; a shader for regions sets the scissor to its rectangle, and leaves it.

@@ -112,7 +112,7 @@ pub use reload::Reloading;
 pub use resource::{Resource, ResourceKind};
 pub use shader::Shader;
 #[cfg(feature = "reload")]
-pub use straightline_codegen::KernelConfig;
+pub use straightline_codegen::{self as codegen, KernelConfig};
 pub use straightline_manifest as manifest;
 pub use targets::Targets;
 pub use timer::{Span, Timer};

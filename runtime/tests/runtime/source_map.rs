@@ -1,7 +1,7 @@
 //! Errors of a text name the place in the kernel's source, by the text's source map.
 
 use crate::common::{Gpu, Stage};
-use straightline_codegen::spec::DebugInfo;
+use straightline_runtime::codegen::spec::DebugInfo;
 use straightline_runtime::manifest::{Manifest, SourceMap, hash_of_text};
 use straightline_runtime::{Draw, DrawOptions, Error, KernelConfig, Pass, PassOptions, Shader};
 
