@@ -176,3 +176,24 @@ fn sources_are_kept() {
     assert!(kind(&no_folder).is_some());
     std::fs::remove_file(&file).expect("it goes");
 }
+
+#[test]
+fn a_shader_is_emitted_as_it_is_written() {
+    let folder = folder("emitted");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let (file, more) = (folder.join("twice.rs"), folder.join("more.rs"));
+    let text = "pub fn twice(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 { grown(color.load(pixel)) }\n";
+    std::fs::write(&file, text).expect("a file");
+    std::fs::write(&more, "pub fn grown(x: Vec4) -> Vec4 { 2.0 * x }\n").expect("a file");
+    let settings = |k: KernelConfig| k.source(&more).stage(Stage::Fragment);
+    let config = settings(KernelConfig::from_file(&file));
+    assert_eq!(config.files().collect::<Vec<_>>(), [&file, &more]);
+    let emitted = config.emit().unwrap_or_else(|e| panic!("{e}"));
+    let written = Config::new().file_with(&file, settings).out_dir(&folder);
+    written.compile().unwrap_or_else(|e| panic!("{e}"));
+    let wgsl = std::fs::read_to_string(folder.join("twice.wgsl")).expect("a shader");
+    assert_eq!(emitted.wgsl(), wgsl);
+    let several = config.variants(|v| v.set("none", ["1", "2"])).emit().map(drop);
+    assert!(several.expect_err("a refusal").to_string().contains("none"));
+    std::fs::remove_dir_all(&folder).expect("it goes");
+}
