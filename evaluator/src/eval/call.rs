@@ -219,11 +219,20 @@ impl<'a> Evaluator<'a> {
                 let value = self.lane_node(value, kind, span)?;
                 Ok(Value::Node(self.build_splat(value, lanes)))
             }
-            ([.., ty, from], [array]) if from == "from_array" && vector_type(ty).is_some() => {
-                let Some((kind, lanes)) = vector_type(ty) else {
-                    unreachable!("just asked")
+            ([.., ty, from], [array])
+                if matches!(from.as_str(), "from_array" | "from_slice")
+                    && let Some((kind, lanes)) = vector_type(ty) =>
+            {
+                let lanes = usize::from(lanes);
+                let values = match (from.as_str(), self.array_len(array)) {
+                    ("from_slice", Some(len)) if len > lanes => {
+                        let mut values = self.array_elements(array, len, span)?;
+                        values.truncate(lanes);
+                        values
+                    }
+                    _ => self.array_elements(array, lanes, span)?,
                 };
-                let values = self.array_elements(array, usize::from(lanes), span)?;
+                let lanes = lanes as u8;
                 self.compose_vector(kind, lanes, &values, span)
             }
             ([.., name], [Value::Str(tally), value]) if name == "tally" => self.eval_tally(tally, value, span),
@@ -366,6 +375,7 @@ impl<'a> Evaluator<'a> {
             // The library's body is hidden, so the error belongs to the call.
             Err(Exit::Error(error)) if of_library => Err(error.called_at(span, name).into()),
             Err(Exit::Demand(needs)) if of_library => Err(Exit::Demand(called_at(needs, span, name))),
+            Err(Exit::Left(Jump::Unreachable(at))) => Err(Exit::Left(Jump::Unreachable(at))),
             Err(Exit::Left(_)) => {
                 Err(
                     Diagnostic::error_at(Code::Leaving, function.span, "`break` or `continue` outside of a loop")

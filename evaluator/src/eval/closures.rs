@@ -62,7 +62,11 @@ impl Evaluator<'_> {
     pub fn call_value(&mut self, callee: &Value, args: Vec<Value>, span: Span) -> Eval {
         let closed = match callee {
             Value::Closure(closed) => Rc::clone(closed),
-            Value::Function(path) => return self.call_path(path, &[], args, span),
+            Value::Function(path) => {
+                // A function of a trait is that of its first argument's type.
+                let resolved = self.resolve_path(path, &args, span)?;
+                return self.call_path(resolved.as_ref().unwrap_or(path), &[], args, span);
+            }
             Value::OneOf(number, all) => return self.invoke_one(*number, all, 0, args, span),
             Value::Poison => return Err(Exit::Noted),
             other => {
@@ -101,6 +105,7 @@ impl Evaluator<'_> {
         self.report.leave_call();
         self.scope.leave_function(outer);
         match result {
+            Err(Exit::Left(Jump::Unreachable(at))) => Err(Exit::Left(Jump::Unreachable(at))),
             Err(Exit::Left(_)) => {
                 Err(Diagnostic::error_at(Code::Leaving, span, "`break` or `continue` outside of a loop").into())
             }

@@ -4,7 +4,9 @@ use super::Evaluator;
 use super::enums::EnumValue;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::front::COUNTED;
 use crate::front::tree::Enum;
+use crate::ir::BinaryOp;
 use std::rc::Rc;
 
 /// Values after which a sequence without a limit is taken for one that does not end.
@@ -20,6 +22,8 @@ pub struct Endless {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Source {
+    /// The next integer, and the step to the one after it.
+    Counted(Value, i64),
     /// One value again and again.
     Repeat(Value),
     /// Values of a list, from its start again after its end.
@@ -45,6 +49,7 @@ impl Evaluator<'_> {
             Value::Endless(Rc::new(Endless { source, maps }))
         };
         Ok(Some(match (name, values) {
+            (COUNTED, [start]) => endless(Source::Counted(start.clone(), 1)),
             ("once", [value]) => Value::array(vec![value.clone()]),
             ("empty", []) => Value::array(Vec::new()),
             ("repeat", [value]) => endless(Source::Repeat(value.clone())),
@@ -93,6 +98,20 @@ impl Evaluator<'_> {
                 };
                 self.pull_items(endless, n, span)
             }
+            ("contains", [x]) if let (Source::Counted(start, 1), []) = (&endless.source, endless.maps.as_slice()) => {
+                self.eval_binary(BinaryOp::Ge, x, start, span)
+            }
+            ("skip" | "step_by", [count])
+                if let (Source::Counted(start, step), [], Some(n)) =
+                    (&endless.source, endless.maps.as_slice(), self.known_int(count)) =>
+            {
+                let (start, step) = match name {
+                    "skip" => (self.eval_binary(BinaryOp::Add, start, &Value::Int(n * step), span)?, *step),
+                    _ => (start.clone(), n * step),
+                };
+                let (source, maps) = (Source::Counted(start, step), Vec::new());
+                Ok(Value::Endless(Rc::new(Endless { source, maps })))
+            }
             ("take_while", [f]) => {
                 self.only_reads(f, name, span)?;
                 let mut taken = Vec::new();
@@ -106,7 +125,10 @@ impl Evaluator<'_> {
                         _ => return Err(no_limit(span).into()),
                     }
                 }
-                Ok(Value::array(taken))
+                let option = self.library.enums.get("Option");
+                let options = option.map(|option| taken.into_iter().map(|value| some(option, value)).collect());
+                let items = Value::array(options.unwrap_or_default());
+                Ok(Value::structure("__Filtered", vec![("items".into(), items)]))
             }
             ("zip", [Value::Endless(_)]) => Err(no_limit(span).into()),
             ("zip", [other]) => {
@@ -184,6 +206,11 @@ impl Evaluator<'_> {
         self.count_step(span)?;
         let mut next = match &mut rest.source {
             Source::Repeat(value) => Next::Value(value.clone()),
+            Source::Counted(next, step) => {
+                let current = next.clone();
+                *next = self.eval_binary(BinaryOp::Add, &current, &Value::Int(*step), span)?;
+                Next::Value(current)
+            }
             Source::Cycle(items) if items.is_empty() => Next::End,
             Source::Cycle(items) => {
                 items.rotate_left(1);

@@ -132,6 +132,7 @@ impl Evaluator<'_> {
             }
             ExprKind::Break(label) => Err(Exit::Left(Jump::Break(label.clone()))),
             ExprKind::Continue(label) => Err(Exit::Left(Jump::Continue(label.clone()))),
+            ExprKind::Unreachable => Err(Exit::Left(Jump::Unreachable(span))),
             ExprKind::Assert {
                 condition,
                 message,

@@ -233,7 +233,8 @@ impl Evaluator<'_> {
     }
 }
 
-fn is_parameter(length: &ExprKind, parameter: &str) -> bool {
+/// Returns whether the length of an array is a constant parameter.
+pub fn is_parameter(length: &ExprKind, parameter: &str) -> bool {
     matches!(length, ExprKind::Path(path) if matches!(path.as_slice(), [name] if name == parameter))
 }
 

@@ -8,7 +8,7 @@ use crate::ir::{BinaryOp, Op};
 use std::rc::Rc;
 
 /// Methods of iterators.
-pub const METHODS: [&str; 22] = [
+pub const METHODS: [&str; 23] = [
     "all",
     "any",
     "chain",
@@ -26,6 +26,7 @@ pub const METHODS: [&str; 22] = [
     "map",
     "product",
     "rev",
+    "scan",
     "skip",
     "step_by",
     "sum",
@@ -120,8 +121,10 @@ impl Evaluator<'_> {
                 };
                 Ok(Value::array(both))
             }
-            ("map", [f]) => {
-                self.only_reads(f, name, span)?;
+            ("map" | "Array::map", [f]) => {
+                if name == "map" {
+                    self.only_reads(f, name, span)?;
+                }
                 self.at_once(name, span, |this| {
                     let mapped = items
                         .into_iter()
@@ -129,6 +132,7 @@ impl Evaluator<'_> {
                     Ok(Value::array(mapped.collect::<Eval<_>>()?))
                 })
             }
+            ("scan", [first, f]) => self.scanned(items, first, f, span),
             ("flat_map", [f]) => {
                 self.only_reads(f, name, span)?;
                 self.at_once(name, span, |this| {
@@ -246,6 +250,35 @@ impl Evaluator<'_> {
                 Err(self.demand_of(&[size], error))
             }
         }
+    }
+
+    /// Evaluates `scan`, whose closure changes a state and ends the values at a compile-time constant.
+    fn scanned(&mut self, items: Vec<Value>, first: &Value, f: &Value, span: Span) -> Eval {
+        self.only_reads(f, "scan", span)?;
+        let state = Value::Ref(Rc::new(self.add_temporary(first.clone())));
+        self.at_once("scan", span, |this| {
+            let mut all = Vec::new();
+            for item in items {
+                this.count_step(span)?;
+                let made = this.call_value(f, vec![state.clone(), item], span)?;
+                let Value::Enum(choice) = &made else {
+                    return Err(Exit::Noted);
+                };
+                let is_some = this.is_variant(choice, 1);
+                let held = choice.variant_fields(1).and_then(<[_]>::first);
+                match (this.known_bool(is_some), held) {
+                    (Some(true), Some((_, value))) => all.push(value.clone()),
+                    (Some(false), _) => break,
+                    _ => {
+                        let error = Diagnostic::error_at(Code::RuntimeValue, span, "a `scan` that a runtime value ends")
+                            .label("a runtime value")
+                            .help("give `Some` of every value, and write `take_while` after it");
+                        return Err(this.demand_constants(&[is_some], error));
+                    }
+                }
+            }
+            Ok(Value::array(all))
+        })
     }
 
     /// Returns the values of an iterator nested in another one.

@@ -69,7 +69,7 @@ use scope::Scope;
 use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::sync::Arc;
 use straightline_kernels::{OptionText, OptionValues};
-use value::{Eval, Exit, Value};
+use value::{Eval, Exit, Jump, Value};
 
 pub use loops::{BUDGET_HELP, LoopReport, name_largest_loops};
 pub use options::{Numeric, OptionInfo, OptionKind, describe_options, override_text, parse_settings};
@@ -217,6 +217,13 @@ impl Evaluator<'_> {
         let (outputs, options, docs) = match result {
             Ok(parts) if self.report.error_count() == 0 => parts,
             Ok(_) => return Err(self.report.take_located()),
+            Err(Exit::Left(Jump::Unreachable(span))) => {
+                let error = Diagnostic::error_at(Code::Assertion, span, "`unreachable!()` is reached")
+                    .label("for every pixel")
+                    .help("give a value here, or correct the condition that leads here");
+                self.record_error(error.into());
+                return Err(self.report.take_located());
+            }
             Err(Exit::Left(_)) => {
                 return Err(Errors::from_diagnostic(Diagnostic::new(
                     Code::KernelResult,

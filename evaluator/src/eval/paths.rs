@@ -104,6 +104,7 @@ impl Evaluator<'_> {
             }
             [.., ty, name] => {
                 functions.contains_key(&path.join("::"))
+                    || self.library.declared_function(ty, name).is_some()
                     || functions.contains_key(name)
                     || crate::infer::operator_function(ty, name).is_some()
                     || (crate::front::is_prelude_type(ty) && name.starts_with(char::is_lowercase))

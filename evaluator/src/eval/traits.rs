@@ -2,12 +2,14 @@
 //! parameters. A value carries its type, so a call resolves its function from the values alone.
 
 use super::Evaluator;
+use super::enums::EnumValue;
+use super::generics::is_parameter;
 use super::objects::OBJECT;
 use super::types::KnownType;
 use super::types::hidden_field;
 use super::value::{Eval, Exit, Place, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Function, Generic, Type as SourceType, qualify_name, split_qualified};
+use crate::front::tree::{ARRAY, Expr, Function, Generic, Type as SourceType, qualify_name, split_qualified, tuple_name};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::rc::Rc;
 
@@ -27,7 +29,9 @@ impl<'a> Evaluator<'a> {
             Value::Enum(choice) if choice.ty == OBJECT => Vec::new(),
             Value::Enum(choice) => vec![choice.ty.to_string()],
             Value::Int(_) => vec!["usize".to_owned(), "i32".to_owned(), "u32".to_owned()],
-            Value::Node(id) if self.ty(*id).is_array() => Vec::new(),
+            Value::Array(_) | Value::Table(_) => vec![ARRAY.to_owned()],
+            Value::Node(id) if self.ty(*id).is_array() => vec![ARRAY.to_owned()],
+            Value::Tuple(parts) => vec![tuple_name(parts.len())],
             Value::Node(id) => vec![self.ty(*id).in_rust()],
             _ => Vec::new(),
         }
@@ -46,8 +50,17 @@ impl<'a> Evaluator<'a> {
             (SourceType::Tuple(types), Value::Tuple(parts)) => {
                 types.len() == parts.len() && parts.iter().zip(types).all(|(part, ty)| self.is_of(part, ty, generics))
             }
-            (SourceType::Array(..), Value::Array(_) | Value::Table(_)) => true,
-            (SourceType::Array(..), Value::Node(id)) => self.ty(*id).is_array(),
+            (SourceType::Array(element, len), value) if let Some(count) = self.array_len(value) => {
+                let is_own = |len: &Expr| generics.iter().any(|own| is_parameter(&len.kind, own.name()));
+                let stated = len.as_deref().filter(|len| !is_own(len));
+                let stated = stated.and_then(|len| self.eval_expr(len).ok());
+                let fits = stated.is_none_or(|len| self.as_constant(&len) == Some(count as i64));
+                let first = match fits && count > 0 {
+                    true => self.array_element(value, &Value::Int(0), Span::default()).ok(),
+                    false => None,
+                };
+                fits && first.is_none_or(|first| self.is_of(&first, element, generics))
+            }
             (SourceType::Fn(..), value) => value.is_called(),
             _ => false,
         }
@@ -200,6 +213,9 @@ impl<'a> Evaluator<'a> {
         let library = self.library;
         let mut names = self.type_names(value);
         let keys = match split_qualified(name) {
+            // A conversion of a type parameter's value, which may be of the type already.
+            Some((of, "From", _)) if names.iter().any(|own| own == of) => None,
+            Some((of, "From", from)) => Some(library.method_keys(of, from)).filter(|keys| !keys.is_empty()),
             Some((_, of, name)) => names
                 .iter()
                 .map(|ty| library.trait_keys(ty, of, name))
@@ -358,9 +374,13 @@ impl<'a> Evaluator<'a> {
 
     /// Evaluates `into()` and `default()` for built-in types.
     pub fn eval_conversion(&mut self, key: &str, value: &Value, span: Span) -> Eval<Option<Value>> {
-        let Some(ty) = key.strip_suffix("::from") else {
-            return Ok(None);
+        let ty = match split_qualified(key) {
+            Some((ty, "From", _)) => ty,
+            _ => key.strip_suffix("::from").unwrap_or_default(),
         };
+        if ty.is_empty() {
+            return Ok(None);
+        }
         if let (Value::Node(id), "Array" | "Tuple") = (value, ty) {
             let parts = self.vector_components(*id).into_iter().map(Value::Node).collect();
             return Ok(Some(match ty {
@@ -370,6 +390,10 @@ impl<'a> Evaluator<'a> {
         }
         if self.type_names(value).iter().any(|name| name == ty) {
             return Ok(Some(value.clone()));
+        }
+        if let ("Option", Some(definition)) = (ty, self.library.enums.get(ty)) {
+            let fields = vec![("0".into(), value.clone())];
+            return Ok(Some(EnumValue::with_variant(ty, definition, 1, fields)));
         }
         match self.from(ty, value, span)? {
             Some(value) => Ok(Some(value)),

@@ -46,9 +46,7 @@ impl KnownType {
 
     /// Argument that stands for a parameter of an `impl` of this type: of `Window<3>` for the `N` of `impl<const N: usize> Window<N>`.
     pub fn argument_of(&self, of: &SourceType, parameter: &str) -> Option<Value> {
-        let SourceType::Name(_, patterns) = of.peel_refs() else {
-            return None;
-        };
+        let patterns = of.arguments();
         let mut pairs = patterns.iter().zip(&self.args);
         pairs.find_map(|(pattern, arg)| match arg {
             Some(arg) if pattern.is_parameter(parameter) => Some(arg.clone()),
@@ -86,7 +84,17 @@ impl<'a> Evaluator<'a> {
     /// Returns the type that is written, with the type parameters and constants of the function that is evaluated.
     pub fn resolve_type(&mut self, ty: &SourceType) -> Option<Rc<KnownType>> {
         let SourceType::Name(name, args) = ty.peel_refs() else {
-            return None;
+            let name = ty.listed_name()?;
+            let arguments = ty.arguments();
+            let args = arguments.iter().map(|arg| match arg {
+                SourceType::Const(_) => {
+                    let constant = self.constant_argument(arg)?;
+                    self.as_constant(&constant).map(Value::Const)
+                }
+                ty => self.resolve_type(ty).map(Value::Type),
+            });
+            let args = args.collect();
+            return Some(Rc::new(KnownType { name, args }));
         };
         if args.is_empty()
             && let Some(known) = self.type_behind(name)
@@ -115,6 +123,19 @@ impl<'a> Evaluator<'a> {
     /// Returns the type of a value; of a known integer, `usize`.
     pub fn type_of_value(&self, value: &Value) -> Option<Rc<KnownType>> {
         let name = self.type_names(value).into_iter().next()?;
+        let args = match value {
+            Value::Tuple(parts) => parts.iter().map(|part| self.type_of_value(part)).collect(),
+            Value::Array(parts) => vec![parts.first().and_then(|part| self.type_of_value(part))],
+            _ => Vec::new(),
+        };
+        let mut args: Vec<_> = args.into_iter().map(|arg| arg.map(Value::Type)).collect();
+        if let Some(len) = self.array_len(value) {
+            args.resize(1, None);
+            args.push(Some(Value::Const(len as i64)));
+        }
+        if !args.is_empty() {
+            return Some(Rc::new(KnownType { name, args }));
+        }
         let Value::Struct { fields, .. } = value else {
             return Some(KnownType::from_name(&name));
         };
@@ -161,6 +182,12 @@ impl<'a> Evaluator<'a> {
                 let mut pairs = args.iter().zip(&ty.args);
                 self.is_unknown_name(name)
                     || *name == ty.name && pairs.all(|(of, arg)| self.may_be(of, arg.as_ref(), own))
+            }
+            (of @ (SourceType::Array(..) | SourceType::Tuple(_)), Some(Value::Type(ty))) => {
+                let patterns = of.arguments();
+                let mut pairs = patterns.iter().zip(&ty.args);
+                of.listed_name().as_ref() == Some(&ty.name)
+                    && pairs.all(|(of, arg)| self.may_be(of, arg.as_ref(), own))
             }
             (of, Some(Value::Const(known))) => {
                 let stated = self.constant_argument(of).and_then(|stated| self.as_constant(&stated));

@@ -350,6 +350,8 @@ pub enum Jump {
     Continue(Option<String>),
     /// `return`.
     Return(Value),
+    /// `unreachable!()`, at a place: no invocation takes it, so the other side of a branch gives all values.
+    Unreachable(Span),
 }
 
 impl Jump {
@@ -367,7 +369,7 @@ impl Jump {
     pub fn is_like(&self, other: &Jump) -> bool {
         match (self, other) {
             (Jump::Break(a), Jump::Break(b)) | (Jump::Continue(a), Jump::Continue(b)) => a == b,
-            (Jump::Return(_), Jump::Return(_)) => true,
+            (Jump::Return(_), Jump::Return(_)) | (Jump::Unreachable(_), Jump::Unreachable(_)) => true,
             _ => false,
         }
     }

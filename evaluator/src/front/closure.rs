@@ -44,12 +44,14 @@ impl Lower {
         self.functions.extend(found);
     }
 
-    /// The types of functions that type parameters stand for, by their bounds.
+    /// The types of functions that type parameters stand for, and those that `into` gives, by their bounds.
     pub fn functions_of(&mut self, generics: &syn::Generics) -> HashMap<String, Type> {
         let mut found = HashMap::new();
         for param in &generics.params {
             if let syn::GenericParam::Type(t) = param {
                 found.extend(self.fn_bound_type(&t.bounds).map(|ty| (t.ident.to_string(), ty)));
+                let target = self.conversion_among(&t.bounds);
+                found.extend(target.map(|ty| (conversion_of(&t.ident.to_string()), ty)));
             }
         }
         for predicate in generics.where_clause.iter().flat_map(|clause| &clause.predicates) {
@@ -58,9 +60,29 @@ impl Lower {
                 && let Some(name) = path.path.get_ident()
             {
                 found.extend(self.fn_bound_type(&t.bounds).map(|ty| (name.to_string(), ty)));
+                let target = self.conversion_among(&t.bounds);
+                found.extend(target.map(|ty| (conversion_of(&name.to_string()), ty)));
             }
         }
         found
+    }
+
+    /// The type that `into` gives, among bounds: of `Into<Vec3>`.
+    pub fn conversion_among<'b>(&mut self, bounds: impl IntoIterator<Item = &'b syn::TypeParamBound>) -> Option<Type> {
+        let arguments = bounds.into_iter().find_map(|bound| match bound {
+            syn::TypeParamBound::Trait(bound) => match bound.path.segments.last() {
+                Some(last) if last.ident == "Into" => Some(&last.arguments),
+                _ => None,
+            },
+            _ => None,
+        });
+        match arguments {
+            Some(syn::PathArguments::AngleBracketed(list)) => list.args.iter().find_map(|arg| match arg {
+                syn::GenericArgument::Type(ty) => Some(self.lower_type(ty)),
+                _ => None,
+            }),
+            _ => None,
+        }
     }
 
     /// The type of functions among bounds: `Fn(A) -> B`, `FnMut`, `FnOnce`.
@@ -81,4 +103,9 @@ impl Lower {
         }
         None
     }
+}
+
+/// Key of the type that `into` gives, among the types of functions that type parameters stand for.
+pub fn conversion_of(parameter: &str) -> String {
+    format!("{parameter}.into")
 }

@@ -25,6 +25,10 @@ pub fn derived_default(item: &syn::Item) -> Option<syn::ItemImpl> {
         }
         _ => return None,
     };
+    let mut generics = generics.clone();
+    for parameter in generics.type_params_mut() {
+        parameter.bounds.push(syn::parse_quote!(Default));
+    }
     let (before, after, condition) = generics.split_for_impl();
     syn::parse2(quote::quote!(impl #before Default for #name #after #condition { fn default() -> Self { #value } }))
         .ok()

@@ -39,7 +39,7 @@ pub struct Lower {
     depth: u32,
     /// Loops and labelled blocks that a `break` may leave, outermost first.
     pub targets: Vec<BreakTarget>,
-    /// Type parameters that are called, with their types.
+    /// Type parameters that are called, with their types, and by [`super::closure::conversion_of`] what `into` of them gives.
     pub functions: HashMap<String, Type>,
     /// Names of the values that attributes put into half precision.
     pub half: Vec<String>,
@@ -99,7 +99,7 @@ impl Lower {
     /// `Self` by its name.
     pub fn self_name(&self, name: String) -> String {
         match self.self_type.as_ref().map(Type::peel_refs) {
-            Some(Type::Name(ty, _)) if name == "Self" => ty.clone(),
+            Some(ty) if name == "Self" => ty.listed_name().unwrap_or(name),
             _ => name,
         }
     }
@@ -144,8 +144,7 @@ impl Lower {
             (syn::Type::Path(path), Type::Name(inferred, _)) if inferred == "_" => {
                 self.path_segments(&path.path).join("::")
             }
-            (_, Type::Name(ty, _)) => ty,
-            _ => return None,
+            (_, ty) => ty.listed_name()?,
         };
         Some(vec![ty, e.path.segments.last()?.ident.to_string()])
     }
@@ -224,6 +223,7 @@ impl Lower {
                 self.typed_none(held, e.span())
             }
             syn::Expr::Path(e) if let Some(constant) = self.owned_constant(e) => constant,
+            syn::Expr::Path(e) if names_instance(&e.path) => self.lower_instance(e),
             syn::Expr::Path(e) => match (self.of_type(e), self.stated_type(&e.path)) {
                 (Some(path), Some(ty)) => self.typed(ExprKind::Path(path), ty, e.span()),
                 (Some(path), None) => ExprKind::Path(path),
@@ -306,6 +306,22 @@ impl Lower {
             syn::Expr::Macro(e) => self.macro_call(&e.mac),
             syn::Expr::Closure(e) => self.lower_closure(e),
             other => self.refuse_expr(other),
+        }
+    }
+
+    /// `power::<3>` as a value: a closure that calls it.
+    fn lower_instance(&mut self, e: &syn::ExprPath) -> ExprKind {
+        let last = e.path.segments.last().map(|last| last.ident.to_string());
+        let Some(count) = last.and_then(|last| self.names().arity(&last)) else {
+            let instead = "write a closure that calls it: `|x| power::<3>(x)`";
+            self.note_unsupported(e.span(), "a method with generic arguments as a value", instead);
+            return ExprKind::Tuple(Vec::new());
+        };
+        let params: Vec<syn::Ident> = (0..count).map(|k| quote::format_ident!("x{k}", span = e.span())).collect();
+        let closure = quote::quote_spanned!(e.span()=> |#(#params),*| #e(#(#params),*));
+        match syn::parse2(closure) {
+            Ok(closure) => self.lower_closure(&closure),
+            Err(_) => ExprKind::Tuple(Vec::new()),
         }
     }
 
@@ -521,7 +537,9 @@ impl Lower {
     fn stated_type(&mut self, path: &syn::Path) -> Option<Type> {
         let last = path.segments.last()?;
         if last.arguments.is_none() {
-            return None;
+            // Another name of a type that has arguments.
+            let named = self.aliased_type(&path.get_ident()?.to_string())?;
+            return has_arguments(&named).then_some(named);
         }
         Some(self.lower_type(&syn::Type::Path(syn::TypePath {
             attrs: Vec::new(),
@@ -562,8 +580,11 @@ impl Lower {
                 let inclusive = matches!(e.limits, syn::RangeLimits::Closed(_));
                 ExprKind::Range(self.boxed(start), self.boxed(end), inclusive)
             }
+            (Some(start), None) => {
+                ExprKind::Call(vec![COUNTED.to_owned()], Vec::new(), vec![self.lower_expr(start)])
+            }
             _ => {
-                self.note_unsupported(e.span(), "a range without both ends", "write both: `0..n`");
+                self.note_unsupported(e.span(), "a range without a start", "write both ends: `0..n`");
                 ExprKind::Tuple(Vec::new())
             }
         }
@@ -579,6 +600,15 @@ fn range_in_brackets(index: &syn::Expr) -> Option<&syn::ExprRange> {
         _ => None,
     }
 }
+
+/// Returns whether a path is a function with generic arguments: `power::<3>`.
+pub fn names_instance(path: &syn::Path) -> bool {
+    let last = path.segments.last();
+    last.is_some_and(|last| !last.arguments.is_none() && last.ident.to_string().starts_with(char::is_lowercase))
+}
+
+/// Name of the sequence `start..`, which no kernel can write.
+pub const COUNTED: &str = "#counted";
 
 /// Placeholder for a generic argument that is `_`.
 pub const INFERRED: &str = "_";
@@ -636,7 +666,10 @@ fn is_assignment(op: &syn::BinOp) -> bool {
 }
 
 fn has_arguments(ty: &Type) -> bool {
-    matches!(ty, Type::Name(_, args) if !args.is_empty())
+    match ty {
+        Type::Name(_, args) | Type::Tuple(args) => !args.is_empty(),
+        other => matches!(other, Type::Array(..)),
+    }
 }
 
 /// Adds the trait to a call of `<Type as Trait>::name`, unless it is one of Rust's.

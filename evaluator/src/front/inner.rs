@@ -25,10 +25,10 @@ fn of_item(item: &mut syn::Item, out: &mut Vec<syn::Item>) {
         syn::Item::Fn(f) if is_plain(&f.attrs) => of_block(&mut f.block, &[], out),
         syn::Item::Impl(i) if is_plain(&i.attrs) => {
             for inner in &mut i.items {
-                if let syn::ImplItem::Fn(f) = inner
-                    && is_plain(&f.attrs)
-                {
-                    of_block(&mut f.block, &[], out);
+                match inner {
+                    syn::ImplItem::Fn(f) if is_plain(&f.attrs) => of_block(&mut f.block, &[], out),
+                    syn::ImplItem::Const(c) if is_plain(&c.attrs) => of_expr(&mut c.expr, &[], out),
+                    _ => {}
                 }
             }
         }
@@ -42,6 +42,8 @@ fn of_item(item: &mut syn::Item, out: &mut Vec<syn::Item>) {
                 }
             }
         }
+        syn::Item::Const(c) if is_plain(&c.attrs) => of_expr(&mut c.expr, &[], out),
+        syn::Item::Static(s) if is_plain(&s.attrs) => of_expr(&mut s.expr, &[], out),
         syn::Item::Mod(m) => {
             if let Some((_, items)) = &mut m.content {
                 take_all(items);

@@ -375,7 +375,12 @@ impl Items {
         if lower.half_attribute(attrs) {
             lower.half.push(sig.ident.to_string());
         }
+        let conversions = generics.iter().filter_map(|generic| {
+            let ty = lower.functions.get(&super::closure::conversion_of(generic.name()))?;
+            Some((generic.name().to_owned(), ty.clone()))
+        });
         let function = Function {
+            conversions: conversions.collect(),
             default_of: None,
             docs: doc_text(attrs),
             half: std::mem::take(&mut lower.half),

@@ -1,4 +1,4 @@
-//! Macros: assertions. `matches!` is in `choice.rs`.
+//! Macros: assertions and `unreachable!()`. `matches!` is in `choice.rs`.
 
 use super::cfg::as_written;
 use super::expr::Lower;
@@ -8,7 +8,7 @@ use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 
 impl Lower {
-    /// `matches!(value, pattern)` and assertions; there are no other macros.
+    /// `matches!(value, pattern)`, assertions and `unreachable!()`; there are no other macros.
     pub fn macro_call(&mut self, call: &syn::Macro) -> ExprKind {
         if call.path.is_ident("matches") {
             return self.matches_macro(call);
@@ -17,8 +17,10 @@ impl Lower {
         if is_assertion(&name) {
             return self.assertion(call, &name);
         }
+        if name == "unreachable" {
+            return ExprKind::Unreachable;
+        }
         let instead = match name.as_str() {
-            "unreachable" => "give any value: nothing reaches it",
             "panic" | "todo" | "unimplemented" => "give a value: a shader has no way to fail",
             _ => "write out what it stands for",
         };

@@ -133,6 +133,14 @@ fn has_constant(ty: &str, name: &str) -> bool {
     }
 }
 
+/// Returns whether slices and arrays have a method of a name.
+pub fn is_of_slices(name: &str) -> bool {
+    matches!(
+        name,
+        "as_slice" | "chunks" | "chunks_exact" | "chunks_exact_mut" | "chunks_mut" | "into_iter" | "iter" | "iter_mut" | "len" | "map" | "windows"
+    ) || super::std::has_function("Array", name)
+}
+
 /// Returns whether numbers or vectors have an inherent method or constant of a name, which takes precedence over one of a trait.
 pub fn is_inherent(ty: &str, name: &str) -> bool {
     if has_constant(ty, name) {

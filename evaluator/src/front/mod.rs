@@ -51,7 +51,7 @@ use ::std::borrow::Cow;
 use ::std::collections::BTreeSet;
 use ::std::sync::Arc;
 
-pub use expr::INFERRED;
+pub use expr::{COUNTED, INFERRED};
 pub use foreign::{is_by_last, is_prelude_type, is_resource};
 pub use kernels::kernel_of;
 pub use looping::looping_statements;

@@ -26,6 +26,8 @@ pub struct Names {
     types: HashMap<String, (u32, syn::Type)>,
     /// Functions by other names, with the files that say so: the name here, and the name there.
     functions: Vec<(u32, syn::Ident, syn::Ident)>,
+    /// Numbers of parameters of functions.
+    arities: HashMap<String, usize>,
     /// Defaults of the parameters of types.
     defaults: HashMap<String, Vec<Option<syn::GenericArgument>>>,
 }
@@ -36,6 +38,7 @@ impl Default for Names {
             paths: HashMap::new(),
             types: HashMap::new(),
             functions: Vec::new(),
+            arities: HashMap::new(),
             defaults: HashMap::new(),
         };
         for (ty, variant) in [
@@ -52,12 +55,28 @@ impl Default for Names {
 }
 
 impl Names {
+    fn note_arities(&mut self, items: &[syn::Item]) {
+        for item in items {
+            match item {
+                syn::Item::Fn(f) => drop(self.arities.insert(f.sig.ident.to_string(), f.sig.inputs.len())),
+                syn::Item::Mod(m) => self.note_arities(m.content.as_ref().map_or(&[], |(_, items)| items)),
+                _ => {}
+            }
+        }
+    }
+
+    /// Number of parameters of a function that is of no type.
+    pub fn arity(&self, function: &str) -> Option<usize> {
+        self.arities.get(function).copied()
+    }
+
     /// The names that files give, and what is wrong with each.
     pub fn from_files(files: &[(u32, syn::File)]) -> (Names, Wrong) {
         let (mut names, mut errors) = (Names::default(), Wrong::new());
         let orders = ["Less", "Equal", "Greater"].map(str::to_owned);
         let mut enums = HashMap::from([("Ordering".to_owned(), orders.to_vec())]);
         for (_, file) in files {
+            names.note_arities(&file.items);
             collect_enums(&file.items, &mut enums);
         }
         for (file, parsed) in files {
@@ -203,7 +222,7 @@ impl Lower {
 
     /// A type's own name where another one stands for it.
     pub fn type_name(&mut self, name: String) -> String {
-        if let Some(Type::Name(of, _)) = self.aliased_type(&name) {
+        if let Some(of) = self.aliased_type(&name).and_then(|ty| ty.listed_name()) {
             return of;
         }
         match self.names().aliased_path(&name) {

@@ -255,13 +255,16 @@ impl Lower {
     fn anonymous_parameter<'b>(
         &mut self,
         word: &str,
-        bounds: impl IntoIterator<Item = &'b syn::TypeParamBound>,
+        bounds: impl IntoIterator<Item = &'b syn::TypeParamBound> + Clone,
     ) -> Type {
+        let target = self.conversion_among(bounds.clone());
         let traits: Vec<String> = bounds.into_iter().filter_map(super::traits::trait_name).collect();
         let name = match self.anonymous.len() {
             0 => format!("{word} {}", traits.join(" + ")),
             k => format!("{word} {} #{k}", traits.join(" + ")),
         };
+        self.functions
+            .extend(target.map(|ty| (super::closure::conversion_of(&name), ty)));
         self.anonymous.push((name.clone(), traits));
         Type::Name(name, Vec::new())
     }

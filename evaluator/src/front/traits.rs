@@ -6,7 +6,7 @@ use super::check::Check;
 use super::expr::Lower;
 use super::items::{Items, Owner, qualified_name};
 use super::rust_traits::{OF_STD, OPERATORS, OWN, is_of_rust};
-use super::tree::{Implemented, Trait, Type};
+use super::tree::{ARRAY, Implemented, Trait, Type};
 use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
@@ -107,20 +107,26 @@ impl Items {
         let trait_name = path.segments.last().map(|s| s.ident.to_string()).unwrap_or_default();
         let args = trait_arguments(&mut lower, &path);
         let own: BTreeSet<&str> = generics.iter().map(super::tree::Generic::name).collect();
-        let of = match ty.peel_refs() {
-            Type::Name(of, _) if !own.contains(of.as_str()) => of.clone(),
-            other => {
-                let (what, instead) = match other {
-                    Type::Name(..) => ("an implementation of a trait for every type", "write one for each type"),
-                    _ => (
-                        "an implementation of a trait for a tuple or an array",
-                        "write it for a structure that holds it",
-                    ),
+        let of = match ty.listed_name() {
+            Some(of) if !own.contains(of.as_str()) => of,
+            found => {
+                let (what, instead) = match found {
+                    Some(_) => ("an implementation of a trait for every type", "write one for each type"),
+                    None => ("an implementation of a trait for functions", "write it for a structure that holds one"),
                 };
                 check.refuse(item.self_ty.span(), what, instead);
                 return self.refuse_functions(item, "impl", &check.into_errors());
             }
         };
+        // In rustc a method of the trait precedes that of slices, but not where the value is a slice.
+        if of == ARRAY {
+            for name in item.items.iter().filter_map(item_name) {
+                if super::methods::is_of_slices(&name) {
+                    let what = format!("a method `{name}` of arrays in a trait, beside that of slices,");
+                    check.refuse(item.self_ty.span(), &what, "give it another name");
+                }
+            }
+        }
         if OWN.contains(&trait_name.as_str()) {
             check.refuse(
                 path.span(),

@@ -5,6 +5,7 @@ use crate::diagnostic::Span;
 use crate::ir::{BinaryOp, Purpose, Scalar, UnaryOp};
 use crate::policy::{Branches, Unroll};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -101,6 +102,8 @@ pub enum ExprKind {
     Break(Option<String>),
     /// `continue`, of the loop with a label.
     Continue(Option<String>),
+    /// `unreachable!()`: the values of its branch are never used.
+    Unreachable,
     /// `assert!(condition, "message")`.
     Assert {
         /// The condition, a boolean.
@@ -352,6 +355,19 @@ pub fn vector_named(name: &str) -> Option<(Scalar, u8)> {
     }
 }
 
+/// Name that implementations for arrays and slices are listed under.
+pub const ARRAY: &str = "[]";
+
+/// Name that implementations for tuples of so many parts are listed under.
+pub fn tuple_name(parts: usize) -> String {
+    format!("({parts})")
+}
+
+/// Returns whether implementations for arrays, slices or tuples are listed under a name.
+pub fn is_unnamed(name: &str) -> bool {
+    name.starts_with(['[', '('])
+}
+
 /// A type as written.
 #[derive(Clone, Debug)]
 pub enum Type {
@@ -378,6 +394,28 @@ impl Type {
         }
     }
 
+    /// Name that implementations of the type are listed under. That of an array or a tuple is none that a kernel can write.
+    pub fn listed_name(&self) -> Option<String> {
+        match self.peel_refs() {
+            Type::Name(name, _) => Some(name.clone()),
+            Type::Array(..) => Some(ARRAY.to_owned()),
+            Type::Tuple(parts) => Some(tuple_name(parts.len())),
+            Type::Ref(..) | Type::Fn(..) | Type::Const(_) => None,
+        }
+    }
+
+    /// Arguments of the type: those after its name, the parts of a tuple, or the element and the length of an array.
+    pub fn arguments(&self) -> Cow<'_, [Type]> {
+        match self.peel_refs() {
+            Type::Name(_, args) | Type::Tuple(args) => Cow::Borrowed(args),
+            Type::Array(element, len) => {
+                let len = len.iter().map(|len| Type::Const(len.clone()));
+                Cow::Owned(std::iter::once((**element).clone()).chain(len).collect())
+            }
+            _ => Cow::Borrowed(&[]),
+        }
+    }
+
     /// Returns whether an argument of a type is a parameter, by its name.
     pub fn is_parameter(&self, parameter: &str) -> bool {
         match self {
@@ -399,7 +437,11 @@ impl Type {
             (Type::Tuple(a), Type::Tuple(b)) => {
                 a.len() != b.len() || a.iter().zip(b).any(|(a, b)| a.is_apart(b, is_parameter))
             }
-            (Type::Array(a, _), Type::Array(b, _)) => a.is_apart(b, is_parameter),
+            (Type::Array(a, of_a), Type::Array(b, of_b)) => {
+                let length = |len: &Option<Box<Expr>>| len.as_ref().and_then(|len| len.known_constant());
+                let lengths = length(of_a).zip(length(of_b));
+                lengths.is_some_and(|(a, b)| a != b) || a.is_apart(b, is_parameter)
+            }
             (Type::Const(a), Type::Const(b)) => match (a.known_constant(), b.known_constant()) {
                 (Some(a), Some(b)) => a != b,
                 _ => false,
@@ -461,6 +503,8 @@ pub struct Function {
     pub of: Option<Type>,
     /// The traits that type parameters have, by their names.
     pub bounds: HashMap<String, Vec<String>>,
+    /// Types that `into` of type parameters gives, by their names.
+    pub conversions: HashMap<String, Type>,
     /// Trait whose default function it is.
     pub default_of: Option<String>,
     /// Parameters in order.
@@ -479,7 +523,7 @@ pub fn generic_arguments(stated: &[Expr]) -> (&[Expr], Option<&Type>) {
     match stated.split_last() {
         Some((
             Expr {
-                kind: ExprKind::Cast(unit, ty @ Type::Name(..)),
+                kind: ExprKind::Cast(unit, ty @ (Type::Name(..) | Type::Array(..) | Type::Tuple(_))),
                 ..
             },
             own,
@@ -491,8 +535,14 @@ pub fn generic_arguments(stated: &[Expr]) -> (&[Expr], Option<&Type>) {
 impl Function {
     /// The argument of a type that stands for a parameter of the `impl`: of `Window<3>` for `N` of `impl<const N: usize> Window<N>`.
     pub fn argument_of<'t>(&self, ty: &'t Type, parameter: &str) -> Option<&'t Type> {
-        let (Some(Type::Name(_, own)), Type::Name(_, args)) = (&self.of, ty) else {
-            return None;
+        let (own, args) = match (self.of.as_ref()?, ty) {
+            (Type::Name(_, own), Type::Name(_, args)) | (Type::Tuple(own), Type::Tuple(args)) => {
+                (own.as_slice(), args.as_slice())
+            }
+            (Type::Array(own, _), Type::Array(element, _)) => {
+                (std::slice::from_ref(&**own), std::slice::from_ref(&**element))
+            }
+            _ => return None,
         };
         let mut pairs = own.iter().zip(args);
         let found = pairs.find(|(own, _)| own.is_parameter(parameter));
@@ -656,9 +706,9 @@ pub struct Library {
 }
 
 impl Library {
-    /// Returns whether a structure or an enum has this name.
+    /// Returns whether a structure or an enum has this name, or arrays or tuples are listed under it.
     pub fn has_type(&self, name: &str) -> bool {
-        self.structs.contains_key(name) || self.enums.contains_key(name)
+        self.structs.contains_key(name) || self.enums.contains_key(name) || is_unnamed(name)
     }
 
     /// Returns whether a structure has fields without names, so that its name is a function of them.

@@ -64,7 +64,7 @@ fn apply_to_expr(e: &mut Expr, known: &Known) {
                 *path = vec![key.clone()];
             }
         }
-        ExprKind::Float(..) | ExprKind::Bool(_) | ExprKind::Str(_) | ExprKind::Break(_) | ExprKind::Continue(_) => {}
+        ExprKind::Float(..) | ExprKind::Bool(_) | ExprKind::Str(_) | ExprKind::Break(_) | ExprKind::Continue(_) | ExprKind::Unreachable => {}
         ExprKind::Unary(_, a)
         | ExprKind::Ref(_, a)
         | ExprKind::Deref(a)

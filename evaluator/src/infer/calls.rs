@@ -203,6 +203,10 @@ impl<'l> Checker<'l> {
             return match *name {
                 "splat" => self.check_arguments(args, &[Ty::scalar(kind)], vector),
                 "from_array" => self.check_arguments(args, &[Ty::Array(Box::new(Ty::scalar(kind)))], vector),
+                "from_slice" => {
+                    let list = Ty::Array(Box::new(Ty::scalar(kind))).into_shared_ref();
+                    self.check_arguments(args, &[list], vector)
+                }
                 "from" => self.from(vector, args),
                 _ => self.by_path(&vector, name, args, span),
             };

@@ -3,7 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::UNARY;
+use crate::front::{COUNTED, UNARY};
 use crate::front::tree::{Closure, Expr, IntType};
 use crate::ir::Scalar;
 
@@ -118,6 +118,17 @@ impl<'l> Checker<'l> {
             let result = self.substitute_type(&function.result, &given, span);
             return Some(Ty::Fn(params, Box::new(result)));
         }
+        if let [of, name] = path
+            && let Some((_, function)) = library.declaring_trait(of, name)
+            && function.params.first().is_some_and(|own| own.name == "self")
+        {
+            let mut given = self.instantiate_function(function, &[]);
+            given.insert("Self".to_owned(), self.table.fresh(Kind::Any));
+            let params = function.params.iter();
+            let params = params.map(|p| self.substitute_type(&p.ty, &given, span)).collect();
+            let result = self.substitute_type(&function.result, &given, span);
+            return Some(Ty::Fn(params, Box::new(result)));
+        }
         if let [name] = path
             && UNARY.contains(&name.as_str())
         {
@@ -208,6 +219,7 @@ impl<'l> Checker<'l> {
             return None;
         }
         let item = match (name, args) {
+            (COUNTED, [start]) => self.infer_expr(start, None),
             ("once" | "repeat", [value]) => self.infer_expr(value, None),
             ("empty", []) => self.table.fresh(Kind::Any),
             ("repeat_n", [value, count]) => {
@@ -277,6 +289,14 @@ impl<'l> Checker<'l> {
                 let sum = self.infer_expr(first, None);
                 self.check_expr(f, &Ty::Fn(vec![sum.clone(), item.clone()], Box::new(sum.clone())));
                 sum
+            }
+            ("scan", [first, f]) => {
+                let state = self.infer_expr(first, None);
+                let made = self.table.fresh(Kind::Any);
+                let option = Ty::Enum("Option".to_owned(), vec![made.clone()]);
+                let params = vec![Ty::Ref(true, Box::new(state)), item.clone()];
+                self.check_expr(f, &Ty::Fn(params, Box::new(option)));
+                iter(made)
             }
             ("all" | "any", [f]) => {
                 self.check_expr(f, &Ty::Fn(vec![item.clone()], Box::new(Ty::Bool)));

@@ -322,6 +322,7 @@ impl<'l> Checker<'l> {
             ExprKind::Break(label) => self.leaves_loop("break", label.as_deref(), span),
             ExprKind::Continue(label) => self.leaves_loop("continue", label.as_deref(), span),
             ExprKind::Closure(closure) => self.infer_closure(closure, wanted, span),
+            ExprKind::Unreachable => Ty::Never,
             ExprKind::Assert { condition, .. } => {
                 self.check_expr(condition, &Ty::Bool);
                 Ty::UNIT

@@ -186,6 +186,8 @@ impl<'l> Checker<'l> {
             }
             Ty::Array(_) if name == "len" => self.check_arguments(args, &[], Ty::USIZE),
             Ty::Array(item) if name == "map" && args.len() == 1 => {
+                // In order and at once, other than that of iterators, so that its closure may change variables.
+                self.methods.insert(span, "Array::map".to_owned());
                 Ty::Array(Box::new(self.infer_map_result(item, &args[0])))
             }
             Ty::Array(_)

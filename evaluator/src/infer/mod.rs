@@ -231,6 +231,8 @@ struct Checker<'l> {
     params: Vec<String>,
     /// The traits that they have.
     bounds: Option<&'l HashMap<String, Vec<String>>>,
+    /// The types that `into` of them gives.
+    conversions: Option<&'l HashMap<String, SourceType>>,
     /// Type and trait of the default function or constant that is checked.
     default_of: Option<(&'l str, &'l str)>,
     /// Calls of which the function follows from what it has to give.
@@ -269,6 +271,7 @@ impl<'l> Checker<'l> {
             locals: Vec::new(),
             params: Vec::new(),
             bounds: None,
+            conversions: None,
             default_of: None,
             pending: Vec::new(),
             bounded: Vec::new(),
@@ -289,6 +292,7 @@ impl<'l> Checker<'l> {
 
     fn check_function(&mut self, function: &'l Function) {
         self.bounds = Some(&function.bounds);
+        self.conversions = Some(&function.conversions);
         self.default_of = match (&function.of, &function.default_of) {
             (Some(SourceType::Name(ty, _)), Some(of)) => Some((ty, of)),
             _ => None,

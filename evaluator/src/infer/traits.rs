@@ -3,7 +3,7 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Function, qualify_name};
+use crate::front::tree::{ARRAY, Function, is_unnamed, qualify_name, tuple_name};
 use std::collections::HashMap;
 
 /// A call whose function depends on the type of its result.
@@ -27,6 +27,8 @@ impl<'l> Checker<'l> {
     pub fn type_name(&self, ty: &Ty) -> Option<String> {
         match self.table.resolve_shallow(ty) {
             Ty::Struct(name, _) | Ty::Enum(name, _) => Some(name),
+            Ty::Array(_) => Some(ARRAY.to_owned()),
+            Ty::Tuple(parts) => Some(tuple_name(parts.len())),
             ty @ (Ty::Bool | Ty::Int(_) | Ty::Float | Ty::Vector(..) | Ty::Matrix(_)) => Some(ty.to_string()),
             ty => match self.table.variable_kind(&ty)? {
                 Kind::Float => Some("f32".to_owned()),
@@ -62,7 +64,16 @@ impl<'l> Checker<'l> {
     /// Returns whether a value of a type can be passed for a parameter. An unknown type fits everything.
     pub(super) fn fits_parameter(&mut self, wanted: &Ty, found: &Ty) -> bool {
         match (self.table.resolve_shallow(wanted), self.table.resolve_shallow(found)) {
-            (Ty::Ref(..), found @ (Ty::Struct(..) | Ty::Enum(..) | Ty::Float | Ty::Int(_) | Ty::Vector(..))) => {
+            (
+                Ty::Ref(..),
+                found @ (Ty::Struct(..)
+                | Ty::Enum(..)
+                | Ty::Float
+                | Ty::Int(_)
+                | Ty::Vector(..)
+                | Ty::Array(_)
+                | Ty::Tuple(_)),
+            ) => {
                 // Of a method's own `&self`.
                 let inner = self.peel_refs(wanted).0;
                 self.table.unify(&inner, &found)
@@ -264,7 +275,14 @@ impl<'l> Checker<'l> {
 
     /// `x.into()`, or `Default::default()`: which function that is, what it has to give tells.
     pub fn given_back(&mut self, from: Option<Ty>, span: Span) -> Ty {
-        let wanted = self.table.fresh(Kind::Any);
+        let target = match from.as_ref().map(|from| self.peel_refs(from).0) {
+            Some(Ty::Param(parameter)) => self.conversions.and_then(|known| known.get(&parameter)),
+            _ => None,
+        };
+        let wanted = match target {
+            Some(target) => self.convert_type(target, span),
+            None => self.table.fresh(Kind::Any),
+        };
         self.pending.push(Pending {
             span,
             wanted: wanted.clone(),
@@ -318,10 +336,18 @@ impl<'l> Checker<'l> {
             let library = self.library;
             let key = match &from {
                 None => library.method_keys(&of, "default").first().map(|key| (*key).to_owned()),
+                // The value tells which conversion that is.
+                Some(from) if matches!(self.peel_refs(from).0, Ty::Param(_)) => Some(qualify_name(&of, "From", "from")),
                 Some(from) => {
+                    if let ("Option", Ty::Enum(_, args)) = (of.as_str(), self.table.resolve_shallow(&wanted))
+                        && !matches!(self.peel_refs(from).0, Ty::Enum(of, _) if of == "Option")
+                    {
+                        self.table.unify(&args[0], from);
+                    }
                     let keys = library.method_keys(&of, "from");
                     let found = self.select_overload(&keys, std::slice::from_ref(from));
                     let builtin = crate::front::is_prelude_type(&of)
+                        || of == "Option"
                         || self.peel_refs(from).0 == self.table.resolve_shallow(&wanted);
                     found
                         .map(|(key, _)| key.to_owned())
@@ -342,7 +368,11 @@ impl<'l> Checker<'l> {
                         None => "Default".to_owned(),
                         Some(from) => format!("From<{}>", self.table.resolve_deep(from)),
                     };
-                    self.note_unsatisfied(&of, &what, span);
+                    let shown = match is_unnamed(&of) {
+                        true => self.table.resolve_deep(&wanted).to_string(),
+                        false => of,
+                    };
+                    self.note_unsatisfied(&shown, &what, span);
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Blocks and their statements, with the exits that target the end of a block.
 
 use super::departures::{Tail, has_exits};
-use crate::diagnostic::Span;
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::eval::Evaluator;
 use crate::eval::loops::RestartPoints;
 use crate::eval::value::{Eval, Exit, Jump, Value};
@@ -66,6 +66,7 @@ impl Evaluator<'_> {
                         Some(init) => match self
                             .expecting(init, ty.as_ref())
                             .and_then(|v| self.ascribe_type(v, ty.as_ref(), init.span))
+                            .and_then(|v| waits_for_nothing(v, init.span))
                         {
                             Ok(value) => value,
                             // An error in the library belongs to the call.
@@ -138,5 +139,20 @@ impl Evaluator<'_> {
             }
             _ => self.eval_expr(expr),
         }
+    }
+}
+
+/// Refuses an array whose elements would be computed later, by a closure that changes variables now.
+fn waits_for_nothing(value: Value, span: Span) -> Eval {
+    match &value {
+        Value::Elements(f) if f.changes_variables() => Err(Diagnostic::error_at(
+            Code::TypeNeeded,
+            span,
+            "the length of this array is not known where its closure changes variables",
+        )
+        .label("of which length?")
+        .help("state the type of the variable: `let x: [f32; 4] = ...`")
+        .into()),
+        _ => Ok(value),
     }
 }

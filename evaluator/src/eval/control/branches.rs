@@ -4,7 +4,7 @@ use super::departures::{EarlyExit, Side, Tail};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::eval::Evaluator;
 use crate::eval::scope::Scope;
-use crate::eval::value::{Eval, Exit, Value};
+use crate::eval::value::{Eval, Exit, Jump, Value};
 use crate::front::tree::{Block, Expr};
 use crate::ir::{NodeId, Op, RegionId, Type};
 use crate::policy::Branches;
@@ -128,6 +128,12 @@ impl Evaluator<'_> {
             }
         }
         match (left, right) {
+            // Of a side that no invocation reaches, nothing is used but the exits before.
+            (Err(Exit::Left(Jump::Unreachable(_))), right) => right,
+            (left, Err(Exit::Left(Jump::Unreachable(_)))) => {
+                self.scope = after_left;
+                left
+            }
             (Ok(left), Ok(right)) => self.join_sides(condition, None, (after_left, left), right, span),
             (Err(Exit::Left(way)), Ok(right)) => {
                 self.control

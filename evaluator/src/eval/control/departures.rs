@@ -222,6 +222,10 @@ impl Evaluator<'_> {
             Err(Exit::Left(way)) if leads_here(&way) => way.into_value(),
             Err(Exit::Left(way)) => match mine.pop() {
                 None => return Err(Exit::Left(way)),
+                Some(last) if matches!(way, Jump::Unreachable(_)) => {
+                    self.scope = last.scope;
+                    last.jump.into_value()
+                }
                 // All other invocations have left for good.
                 Some(last) => {
                     let arrived: Vec<NodeId> = mine.iter().map(|d| d.condition).chain([last.condition]).collect();
@@ -267,7 +271,7 @@ impl Evaluator<'_> {
             let stays = self.not(departure.condition);
             staying = self.and(staying, stays);
         }
-        if let Some(way) = &last {
+        if let Some(way) = last.as_ref().filter(|way| !matches!(way, Jump::Unreachable(_))) {
             self.add_exit(&mut exits, way, staying, span)?;
         }
         self.scope.leave(mark);
@@ -388,6 +392,7 @@ impl Evaluator<'_> {
                 self.control.early_exits.extend(departed);
                 Ok(value)
             }
+            None if departed.is_empty() => Err(Exit::Left(Jump::Unreachable(span))),
             None => self.rethrow_exits(departed),
         }
     }
@@ -425,6 +430,7 @@ impl Evaluator<'_> {
             Jump::Break(_) => "stopped",
             Jump::Continue(_) => "skipped",
             Jump::Return(_) => "returned",
+            Jump::Unreachable(_) => return,
         };
         self.name_params(&Value::Node(flag), name, span);
         if let Jump::Return(value) = way {

@@ -137,7 +137,10 @@ impl Check {
                     }
                 }
             }
-            E::Path(e) => self.check_path(&mut e.path, false),
+            E::Path(e) => {
+                let is_instance = crate::front::expr::names_instance(&e.path);
+                self.check_path(&mut e.path, is_instance);
+            }
             E::Range(e) => [&mut e.start, &mut e.end]
                 .into_iter()
                 .flatten()
