@@ -76,6 +76,7 @@ fn features() -> Vec<(String, String)> {
         "constants",
         "orders",
         "names",
+        "authors",
         "ports",
         "shading",
         "noises",
