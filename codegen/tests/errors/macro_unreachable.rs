@@ -1,7 +1,11 @@
-pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
-    match pixel.x & 1 {
-        0 => color.load(pixel),
-        1 => Vec4::ONE,
-        _ => unreachable!(),
+fn component(v: Vec4, k: u32) -> f32 {
+    match k {
+        0 => v.x,
+        1 => v.y,
+        _ => unreachable!("no component {k}"),
     }
+}
+
+pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
+    color.load(pixel) * component(color.load(pixel), 2)
 }

@@ -11,13 +11,13 @@ impl Deref for Level {
     }
 }
 
-trait Doubled {
-    fn doubled(self) -> Self;
+trait Ends {
+    fn first(&self) -> f32;
 }
 
-impl Doubled for [f32; 2] {
-    fn doubled(self) -> Self {
-        [self[0] * 2.0, self[1] * 2.0]
+impl Ends for [f32; 2] {
+    fn first(&self) -> f32 {
+        self[0]
     }
 }
 
@@ -33,7 +33,7 @@ impl<T: Mul<f32, Output = T>> Halved for T {
 
 pub fn k(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     let here = color.load(pixel);
-    let a = [here.x, here.y].doubled();
+    let a = [here.x, here.y].first();
     let b = here.halved();
-    if *Level(here.x) < *Level(here.y) { here * a[0] } else { b }
+    if *Level(here.x) < *Level(here.y) { here * a } else { b }
 }

@@ -106,7 +106,10 @@ impl Evaluator<'_> {
                     (&endless.source, endless.maps.as_slice(), self.known_int(count)) =>
             {
                 let (start, step) = match name {
-                    "skip" => (self.eval_binary(BinaryOp::Add, start, &Value::Int(n * step), span)?, *step),
+                    "skip" => (
+                        self.eval_binary(BinaryOp::Add, start, &Value::Int(n * step), span)?,
+                        *step,
+                    ),
                     _ => (start.clone(), n * step),
                 };
                 let (source, maps) = (Source::Counted(start, step), Vec::new());

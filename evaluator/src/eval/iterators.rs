@@ -270,9 +270,10 @@ impl Evaluator<'_> {
                     (Some(true), Some((_, value))) => all.push(value.clone()),
                     (Some(false), _) => break,
                     _ => {
-                        let error = Diagnostic::error_at(Code::RuntimeValue, span, "a `scan` that a runtime value ends")
-                            .label("a runtime value")
-                            .help("give `Some` of every value, and write `take_while` after it");
+                        let error =
+                            Diagnostic::error_at(Code::RuntimeValue, span, "a `scan` that a runtime value ends")
+                                .label("a runtime value")
+                                .help("give `Some` of every value, and write `take_while` after it");
                         return Err(this.demand_constants(&[is_some], error));
                     }
                 }

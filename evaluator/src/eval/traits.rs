@@ -9,7 +9,9 @@ use super::types::KnownType;
 use super::types::hidden_field;
 use super::value::{Eval, Exit, Place, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{ARRAY, Expr, Function, Generic, Type as SourceType, qualify_name, split_qualified, tuple_name};
+use crate::front::tree::{
+    ARRAY, Expr, Function, Generic, Type as SourceType, qualify_name, split_qualified, tuple_name,
+};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::rc::Rc;
 

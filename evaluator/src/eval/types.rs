@@ -186,8 +186,7 @@ impl<'a> Evaluator<'a> {
             (of @ (SourceType::Array(..) | SourceType::Tuple(_)), Some(Value::Type(ty))) => {
                 let patterns = of.arguments();
                 let mut pairs = patterns.iter().zip(&ty.args);
-                of.listed_name().as_ref() == Some(&ty.name)
-                    && pairs.all(|(of, arg)| self.may_be(of, arg.as_ref(), own))
+                of.listed_name().as_ref() == Some(&ty.name) && pairs.all(|(of, arg)| self.may_be(of, arg.as_ref(), own))
             }
             (of, Some(Value::Const(known))) => {
                 let stated = self.constant_argument(of).and_then(|stated| self.as_constant(&stated));

@@ -273,6 +273,7 @@ impl Lower {
             syn::Expr::Struct(e) => self.lower_struct(e),
             syn::Expr::Cast(e) => ExprKind::Cast(self.lower_link(&e.expr), self.lower_type(&e.ty)),
             syn::Expr::Range(e) => self.lower_range(e),
+            syn::Expr::ForLoop(e) if let Some(start) = open_start(&e.expr) => self.lower_open_for(e, start),
             syn::Expr::ForLoop(e) => {
                 let over = self.lower_expr(&e.expr);
                 let label = label_name(e.label.as_ref().map(|l| &l.name));
@@ -317,10 +318,26 @@ impl Lower {
             self.note_unsupported(e.span(), "a method with generic arguments as a value", instead);
             return ExprKind::Tuple(Vec::new());
         };
-        let params: Vec<syn::Ident> = (0..count).map(|k| quote::format_ident!("x{k}", span = e.span())).collect();
+        let params: Vec<syn::Ident> = (0..count)
+            .map(|k| quote::format_ident!("x{k}", span = e.span()))
+            .collect();
         let closure = quote::quote_spanned!(e.span()=> |#(#params),*| #e(#(#params),*));
         match syn::parse2(closure) {
             Ok(closure) => self.lower_closure(&closure),
+            Err(_) => ExprKind::Tuple(Vec::new()),
+        }
+    }
+
+    /// `for k in start.. { .. }`: a `loop` that counts.
+    fn lower_open_for(&mut self, e: &syn::ExprForLoop, start: &syn::Expr) -> ExprKind {
+        let (attrs, label, pattern, body) = (&e.attrs, &e.label, &e.pat, &e.body.stmts);
+        let next = quote::format_ident!("__next", span = e.expr.span());
+        let block = quote::quote! {{
+            let mut #next = #start;
+            #(#attrs)* #label loop { let #pattern = #next; #next += 1; #(#body)* }
+        }};
+        match syn::parse2(block) {
+            Ok(block) => ExprKind::Block(self.lower_block(&block)),
             Err(_) => ExprKind::Tuple(Vec::new()),
         }
     }
@@ -580,9 +597,7 @@ impl Lower {
                 let inclusive = matches!(e.limits, syn::RangeLimits::Closed(_));
                 ExprKind::Range(self.boxed(start), self.boxed(end), inclusive)
             }
-            (Some(start), None) => {
-                ExprKind::Call(vec![COUNTED.to_owned()], Vec::new(), vec![self.lower_expr(start)])
-            }
+            (Some(start), None) => ExprKind::Call(vec![COUNTED.to_owned()], Vec::new(), vec![self.lower_expr(start)]),
             _ => {
                 self.note_unsupported(e.span(), "a range without a start", "write both ends: `0..n`");
                 ExprKind::Tuple(Vec::new())
@@ -605,6 +620,12 @@ fn range_in_brackets(index: &syn::Expr) -> Option<&syn::ExprRange> {
 pub fn names_instance(path: &syn::Path) -> bool {
     let last = path.segments.last();
     last.is_some_and(|last| !last.arguments.is_none() && last.ident.to_string().starts_with(char::is_lowercase))
+}
+
+/// Start of a range without an end, in parentheses or not.
+fn open_start(over: &syn::Expr) -> Option<&syn::Expr> {
+    let range = range_in_brackets(over)?;
+    range.start.as_deref().filter(|_| range.end.is_none())
 }
 
 /// Name of the sequence `start..`, which no kernel can write.

@@ -137,7 +137,17 @@ fn has_constant(ty: &str, name: &str) -> bool {
 pub fn is_of_slices(name: &str) -> bool {
     matches!(
         name,
-        "as_slice" | "chunks" | "chunks_exact" | "chunks_exact_mut" | "chunks_mut" | "into_iter" | "iter" | "iter_mut" | "len" | "map" | "windows"
+        "as_slice"
+            | "chunks"
+            | "chunks_exact"
+            | "chunks_exact_mut"
+            | "chunks_mut"
+            | "into_iter"
+            | "iter"
+            | "iter_mut"
+            | "len"
+            | "map"
+            | "windows"
     ) || super::std::has_function("Array", name)
 }
 

@@ -112,7 +112,10 @@ impl Items {
             found => {
                 let (what, instead) = match found {
                     Some(_) => ("an implementation of a trait for every type", "write one for each type"),
-                    None => ("an implementation of a trait for functions", "write it for a structure that holds one"),
+                    None => (
+                        "an implementation of a trait for functions",
+                        "write it for a structure that holds one",
+                    ),
                 };
                 check.refuse(item.self_ty.span(), what, instead);
                 return self.refuse_functions(item, "impl", &check.into_errors());
@@ -122,7 +125,7 @@ impl Items {
         if of == ARRAY {
             for name in item.items.iter().filter_map(item_name) {
                 if super::methods::is_of_slices(&name) {
-                    let what = format!("a method `{name}` of arrays in a trait, beside that of slices,");
+                    let what = format!("the method `{name}` of a trait for arrays, which slices have too,");
                     check.refuse(item.self_ty.span(), &what, "give it another name");
                 }
             }

@@ -64,7 +64,12 @@ fn apply_to_expr(e: &mut Expr, known: &Known) {
                 *path = vec![key.clone()];
             }
         }
-        ExprKind::Float(..) | ExprKind::Bool(_) | ExprKind::Str(_) | ExprKind::Break(_) | ExprKind::Continue(_) | ExprKind::Unreachable => {}
+        ExprKind::Float(..)
+        | ExprKind::Bool(_)
+        | ExprKind::Str(_)
+        | ExprKind::Break(_)
+        | ExprKind::Continue(_)
+        | ExprKind::Unreachable => {}
         ExprKind::Unary(_, a)
         | ExprKind::Ref(_, a)
         | ExprKind::Deref(a)

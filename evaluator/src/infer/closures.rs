@@ -3,8 +3,8 @@
 use super::Checker;
 use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::{COUNTED, UNARY};
 use crate::front::tree::{Closure, Expr, IntType};
+use crate::front::{COUNTED, UNARY};
 use crate::ir::Scalar;
 
 impl<'l> Checker<'l> {

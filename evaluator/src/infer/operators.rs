@@ -255,7 +255,10 @@ impl<'l> Checker<'l> {
             }
             _ if !op.is_comparison() && (self.is_own(&left) || self.is_own(&right)) => {
                 let of = super::overloads::trait_of(op).map(|(of, _)| of).unwrap_or_default();
-                let named = |ty: &Ty| self.type_name(ty).filter(|name| name != "_" && !crate::front::tree::is_unnamed(name));
+                let named = |ty: &Ty| {
+                    self.type_name(ty)
+                        .filter(|name| name != "_" && !crate::front::tree::is_unnamed(name))
+                };
                 match (named(&left), named(&right)) {
                     (Some(l), Some(r)) if l == r => Some(format!("write an `impl {of} for {l}`")),
                     (Some(l), Some(r)) => Some(format!("write an `impl {of}<{r}> for {l}`")),
