@@ -513,7 +513,7 @@ impl Lower {
                 let path = self.path_segments(&t.path);
                 let own = t.path.is_ident("Self").then(|| self.self_type().cloned()).flatten();
                 match self.stated_type(&t.path).or(own) {
-                    Some(ty @ Type::Name(..)) if path.len() == 1 && has_arguments(&ty) => {
+                    Some(ty) if path.len() == 1 && has_arguments(&ty) => {
                         let span = self.token_span(t.span());
                         let kind = ExprKind::Path(path);
                         ExprKind::Cast(Box::new(Expr { kind, span }), ty)

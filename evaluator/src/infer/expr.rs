@@ -392,14 +392,12 @@ impl<'l> Checker<'l> {
         };
         if !fits {
             let sign = if op == UnaryOp::Neg { "-" } else { "!" };
-            self.errors.push(
-                Diagnostic::error_at(
-                    Code::OperatorTypes,
-                    span,
-                    format!("cannot apply unary operator `{sign}` to type `{bare}`"),
-                )
-                .label("not for this type"),
-            );
+            let message = format!("cannot apply unary operator `{sign}` to type `{bare}`");
+            let error = Diagnostic::error_at(Code::OperatorTypes, span, message).label("not for this type");
+            self.errors.push(match bare {
+                Ty::Int(kind) => error.help(format!("compute in 32 bits: `!(x as u32) as {}`", kind.name())),
+                _ => error,
+            });
             return Ty::Unknown;
         }
         if op == UnaryOp::Neg {
