@@ -34,7 +34,9 @@ impl Maker {
                 "(0..3usize).flat_map(|{y}| (0..{y}).map(move |{x}| {x} + {y})).map(|{y}| {all}[{y} & 3]).{end}"
             ),
             2 => format!("[{all}, same::<[{text}; 4]>([{first}; 4])].into_iter().flatten().{map}.{end}"),
-            3 => format!("{all}.windows(2).map(|{x}: &[{text}]| {x}[1] - {x}[0]).{end}"),
+            3 => format!(
+                "{all}.windows(2).map(|{x}: &[{text}]| if {x}.len() == 2 {{ {x}[1] - {x}[0] }} else {{ unreachable!() }}).{end}"
+            ),
             4 => {
                 let n = self.random.between(2, 3);
                 format!("{all}.chunks({n}).map(|{x}: &[{text}]| {x}[0] - {x}[{x}.len() - 1]).{end}")
@@ -84,7 +86,9 @@ impl Maker {
             23 => format!(
                 "{all}.into_iter().zip(std::iter::repeat(same::<{text}>({first}))).map(|({x}, {y})| {x} - {y}).{end}"
             ),
-            24 => format!("{all}.into_iter().cycle().take(6).{end}"),
+            24 => format!(
+                "{all}.into_iter().cycle().take(6).scan(same::<{text}>({first}), |{y}: &mut {text}, {x}: {text}| Some(std::mem::replace({y}, {x}))).{end}"
+            ),
             25 => format!("std::iter::empty().chain({all}).{end}"),
             18 if own => {
                 let name = self.random.pick(&["min_by_key", "max_by_key"]);
