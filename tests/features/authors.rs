@@ -82,7 +82,7 @@ pub fn traits_for_arrays(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {
     vec4(scaled(&row), scaled(&pair) + pair.twice(), turned[0][1] * 2.0 + turned[1][0] + sizes(&turned), totals + row.twice().total())
 }
 
-//// Implementations for arrays that elements and lengths tell apart, and for tuples that their parts do
+//// Implementations for arrays of unlike elements and lengths, and for tuples of unlike parts
 trait Dims {
     fn dims(&self) -> f32;
 }
