@@ -15,6 +15,10 @@ use straightline_manifest::{Origin, Stage};
 /// Most work of a cascade, in that of its pictures without overlapping tiles. More is refused, except where pictures are named.
 const MOST_OVERLAP: f64 = 2.0;
 
+/// Most work of a cascade's threads, in that of the texels that are stored. Five levels of a picture, each a quarter of the one
+/// before, have 3.8: few threads have a texel of the last ones.
+const MOST_IDLENESS: f64 = 4.0;
+
 /// Passes that become one, in order: one pass as it is, or several with the tiles of their pictures.
 pub struct Group {
     /// Indices of the passes.
@@ -229,9 +233,16 @@ impl Grouping<'_> {
                 .or(is_input.then(|| SizeRule::of_input(name)))
         };
         let cascade = passes::plan_cascade(&parts, &rule_of, &cost)?;
-        let overlap = cascade.overlap(&cost);
-        match (&self.spec.fuse, overlap > MOST_OVERLAP) {
-            (Fuse::Share, true) => Err(format!("overlapping tiles make {overlap:.1} times the work")),
+        if self.spec.fuse != Fuse::Share {
+            return Ok(cascade);
+        }
+        match (cascade.overlap(&cost), cascade.idleness(&cost)) {
+            (overlap, _) if overlap > MOST_OVERLAP => {
+                Err(format!("overlapping tiles make {overlap:.1} times the work"))
+            }
+            (_, idleness) if idleness > MOST_IDLENESS => Err(format!(
+                "small tiles leave threads without work: {idleness:.1} times the threads that are needed"
+            )),
             _ => Ok(cascade),
         }
     }

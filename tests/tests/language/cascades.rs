@@ -138,3 +138,34 @@ fn pictures_are_shared_where_their_places_follow_from_the_pixel() {
     assert_eq!(groups("blur"), "rows 16x22, result 16x16");
     assert_eq!(groups("kinds"), "light 21x21, signs 19x19, thin 17x17, result 16x16");
 }
+
+/// Tiles of many pictures are small, and would leave most threads without work.
+#[test]
+fn a_cascade_ends_where_threads_have_no_work() {
+    let text = "
+        pub fn wide(color: &Texture<Vec4>) -> Texture<Vec4> {
+            let first: Texture<Vec4> = draw(color.size(), |pixel| color.load(pixel) * 0.5);
+            let mut sum: Texture<Vec4> = draw(color.size(), |pixel| first.load(pixel));
+            for k in 0..20 {
+                let part: Texture<Vec4> = draw(color.size(), |pixel| first.load(pixel + ivec2(k % 3, k % 2)));
+                sum = draw(color.size(), |pixel| sum.load(pixel) + part.load(pixel - 1));
+            }
+            sum
+        }";
+    let compile = |fuse: Fuse| {
+        let compiled = Chain::from_text("wide.rs", text, "wide").compile(&exact().fuse(fuse));
+        compiled.unwrap_or_else(|errors| panic!("{}", errors.render(false)))
+    };
+    let (stored, shared) = (compile(Fuse::None), compile(Fuse::Share));
+    assert!(shared.passes.len() < stored.passes.len());
+    for pass in &shared.shared {
+        let last = pass.cascade.tiles.last().expect("tiles");
+        assert!(last.size[0] * last.size[1] >= 64, "{:?}", pass.cascade);
+    }
+    let size = uvec2(33, 20);
+    let [expected, found] = [&stored, &shared].map(|compiled| {
+        let written = interpret_chain::<f32>(compiled, &inputs(size));
+        bits(&written.unwrap_or_else(|e| panic!("{e}"))[0])
+    });
+    assert!(expected == found);
+}

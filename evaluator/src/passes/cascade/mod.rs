@@ -81,6 +81,18 @@ impl Cascade {
         sum(&|tile| tile.size) / sum(&|tile| tile.step).max(1.0)
     }
 
+    /// Work of all threads, idle ones too, for that of the texels that a workgroup stores; weighed by `cost`, of each picture.
+    /// Small tiles keep few threads busy.
+    pub fn idleness(&self, cost: &[usize]) -> f64 {
+        let threads = f64::from(self.threads[0] * self.threads[1]);
+        let each = || self.tiles.iter().zip(cost.iter().map(|cost| *cost as f64));
+        let all: f64 = each().map(|(tile, cost)| cost * f64::from(tile.turns) * threads).sum();
+        let stored: f64 = each()
+            .map(|(tile, cost)| cost * f64::from(tile.step[0] * tile.step[1]))
+            .sum();
+        all / stored.max(1.0)
+    }
+
     /// Operations of a thread, by those of each picture's kernel.
     fn time(&self, cost: &[usize]) -> usize {
         // A barrier and the places of a tile take a while, too.
