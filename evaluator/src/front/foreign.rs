@@ -2,8 +2,9 @@
 
 use super::check::Check;
 use super::items::Items;
+use super::library::Library;
 use super::textures::TextureType;
-use super::tree::Library;
+
 use crate::diagnostic::{Code, Diagnostic, Span};
 use ::std::collections::HashSet;
 use proc_macro2::{TokenStream, TokenTree};

@@ -3,8 +3,9 @@
 //! A name stands for every function and constant of which it is the last word, as types are not looked at: statements may be found
 //! that run no such loop, and none is missed but in types.
 
+use super::library::Library;
 use super::scan::child_exprs;
-use super::tree::{Block, Expr, ExprKind, Function, Library, Statement};
+use super::tree::{Block, Expr, ExprKind, Function, Statement};
 use crate::diagnostic::Span;
 use crate::policy::{Policy, Unroll};
 use rustc_hash::{FxHashMap, FxHashSet};

@@ -21,6 +21,7 @@ mod inner;
 pub mod instead;
 mod items;
 mod kernels;
+mod library;
 mod literal;
 mod looping;
 mod macros;
@@ -54,11 +55,11 @@ use ::std::sync::Arc;
 pub use expr::{COUNTED, INFERRED};
 pub use foreign::{is_by_last, is_prelude_type, is_resource};
 pub use kernels::kernel_of;
+pub use library::Library;
 pub use looping::looping_statements;
 pub use raw::{raw_name, unraw};
 pub use rust_traits::is_of_rust;
 pub use scan::{child_exprs, has_break, mentioned_in, scan_effects};
-pub use tree::Library;
 pub use whiles::guard_body;
 
 /// Methods of arrays in the library that change their receiver.

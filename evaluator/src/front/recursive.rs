@@ -1,6 +1,7 @@
 //! Types that hold themselves, which have no size.
 
-use super::tree::{Library, Type};
+use super::library::Library;
+use super::tree::Type;
 use crate::diagnostic::{Code, Diagnostic, Span};
 
 /// An error for each type that holds itself, directly or through others: rustc's E0072.

@@ -2,7 +2,8 @@
 
 use super::{Known, KnownItems};
 use crate::diagnostic::Span;
-use crate::front::tree::{Block, Expr, ExprKind, Library, Pattern, Statement, Type, generic_arguments};
+use crate::front::Library;
+use crate::front::tree::{Block, Expr, ExprKind, Pattern, Statement, Type, generic_arguments};
 use std::sync::Arc;
 
 /// Gives each literal the type that was found for it, and each method of a number the function that it stands for.

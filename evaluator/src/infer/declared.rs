@@ -3,7 +3,8 @@
 use super::types::Ty;
 use super::{Checker, Known, infer_item};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Const, Function, Generic, Library, Type};
+use crate::front::Library;
+use crate::front::tree::{Const, Function, Generic, Type};
 use std::collections::{BTreeSet, HashMap};
 
 /// Notes where functions and constants are unlike what their traits say of them: of all traits, or of those of which the kernel

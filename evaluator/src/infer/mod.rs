@@ -27,7 +27,8 @@ mod traits;
 mod types;
 
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::tree::{Const, Expr, Fields, Function, Generic, IntType, Library, Type as SourceType};
+use crate::front::Library;
+use crate::front::tree::{Const, Expr, Fields, Function, Generic, IntType, Type as SourceType};
 use std::collections::{BTreeSet, HashMap};
 use types::{Kind, Table, Ty};
 
