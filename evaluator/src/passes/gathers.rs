@@ -9,11 +9,12 @@
 //! File tests: `evaluator/tests/filetests/passes/gathers`.
 
 use super::fold::Exact;
+use super::nodes::name_node;
 use super::offsets::pixel_offsets;
 use super::schedule::schedule_graph;
 use crate::ir::{
-    BinaryOp, Builder, Graph, Invocation, Naming, NodeId, Op, Origin, Rebuild, Replace, Sampler, Scalar, TextureKind,
-    Type, rebuild_replacing,
+    BinaryOp, Builder, Graph, Invocation, NodeId, Op, Rebuild, Replace, Sampler, Scalar, TextureKind, Type,
+    rebuild_replacing,
 };
 use crate::policy::ReadOrder;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -241,19 +242,5 @@ impl Replace for Gathering<'_> {
             // Only the gathered component is used.
             false => b.add(Op::Splat, [one], ty),
         })
-    }
-}
-
-/// Names a value that has no place in the source.
-fn name_node(b: &mut Builder<'_>, id: NodeId, name: &str) {
-    if b.graph().origin(id).is_none() {
-        let origin = Origin {
-            name: name.into(),
-            naming: Naming::Let,
-            file: 0,
-            line: Origin::NOWHERE,
-            counters: [].into(),
-        };
-        b.set_origin(id, &origin);
     }
 }

@@ -26,9 +26,8 @@ impl Maps {
     /// samplers, buffers and uniforms are one where they have one name.
     pub fn merged(graph: &mut Graph, inner: &Graph, leave_out: &dyn Fn(&str) -> bool) -> Maps {
         let textures = inner.textures.iter().map(|of| {
-            let kept = std::slice::from_ref(of).iter().filter(|of| !leave_out(&of.name));
-            let index = kept.map(|of| merge(&mut graph.textures, std::slice::from_ref(of), |a, b| a.name == b.name)[0]);
-            index.last()
+            let is_kept = !leave_out(&of.name);
+            is_kept.then(|| merge_one(&mut graph.textures, of, |a, b| a.name == b.name))
         });
         let maps = Maps {
             textures: textures.collect(),
@@ -217,12 +216,15 @@ pub fn with_components(builder: &mut Builder<'_>, texel: NodeId, ty: Type) -> No
 
 /// Appends what a table lacks, and returns the indices of all of it.
 fn merge<T: Clone>(table: &mut Vec<T>, other: &[T], same: impl Fn(&T, &T) -> bool) -> Vec<u32> {
-    let index = |of: &T, table: &mut Vec<T>| match table.iter().position(|known| same(known, of)) {
-        Some(index) => index as u32,
-        None => {
-            table.push(of.clone());
-            table.len() as u32 - 1
-        }
-    };
-    other.iter().map(|of| index(of, table)).collect()
+    other.iter().map(|of| merge_one(table, of, &same)).collect()
+}
+
+/// Appends an entry that a table lacks, and returns its index.
+fn merge_one<T: Clone>(table: &mut Vec<T>, of: &T, same: impl Fn(&T, &T) -> bool) -> u32 {
+    let found = table.iter().position(|known| same(known, of));
+    let index = found.unwrap_or_else(|| {
+        table.push(of.clone());
+        table.len() - 1
+    });
+    index as u32
 }

@@ -16,6 +16,7 @@ mod half;
 mod inline;
 mod lanes;
 pub mod narrow;
+mod nodes;
 mod offsets;
 mod origin;
 mod ranges;

@@ -2,12 +2,12 @@
 
 use super::{Cascade, PAIR, Part, Tile};
 use crate::ir::{
-    BinaryOp, Builder, Graph, Invocation, Memory, Naming, Node, NodeId, Op, Origin, OutputTarget, SharedArray, Texture,
-    Type,
+    BinaryOp, Builder, Graph, Invocation, Memory, Node, NodeId, Op, OutputTarget, SharedArray, Texture, Type,
 };
 use crate::passes::fold::Exact;
 use crate::passes::fuse::Unfused;
 use crate::passes::inline::{Maps, Pixel, add_sized, inline_texel, size_node, with_components};
+use crate::passes::nodes::{add, name_node, take_turns};
 use crate::passes::tiles::{taken_names, unused_name};
 use rustc_hash::FxHashMap;
 
@@ -23,7 +23,7 @@ pub fn compute_cascade(parts: &[Part<'_>], sized: &[Texture], cascade: &Cascade)
     let stored = parts.iter().filter(|part| part.stored).count();
     let [local, origin] = [Op::Thread, Op::GroupOrigin].map(|op| b.add(op, [], PAIR));
     let [x, y] = [0, 1].map(|k| b.add(Op::Extract(k), [local], Type::I32));
-    let width = b.i32(cascade.threads[0] as i32);
+    let width = b.i32(Cascade::THREADS[0] as i32);
     let row = add(&mut b, BinaryOp::Mul, y, width);
     let index = add(&mut b, BinaryOp::Add, row, x);
     name_node(&mut b, index, "index");
@@ -50,7 +50,7 @@ pub fn compute_cascade(parts: &[Part<'_>], sized: &[Texture], cascade: &Cascade)
 fn merge_tables(b: &mut Builder<'_>, parts: &[Part<'_>], sized: &[Texture], cascade: &Cascade) -> Vec<Maps> {
     let graph = b.graph_mut();
     graph.targets.clear();
-    graph.invocation = Invocation::Group(cascade.threads);
+    graph.invocation = Invocation::Group(Cascade::THREADS);
     let mut maps = Vec::new();
     for (k, part) in parts.iter().enumerate() {
         let is_part = |name: &str| parts[..k].iter().any(|other| other.name == name);
@@ -104,39 +104,21 @@ impl Phases<'_> {
         let corner = moved(b, base, tile.first);
         name_node(b, corner, "corner");
         self.corners.push(corner);
-        let threads = self.cascade.threads[0] * self.cascade.threads[1];
-        let texels = tile.size[0] * tile.size[1];
-        for turn in 0..tile.turns {
-            let mut texel = self.index;
-            if turn > 0 {
-                let behind = b.i32((turn * threads) as i32);
-                texel = add(b, BinaryOp::Add, self.index, behind);
-                name_node(b, texel, "index");
-            }
-            if (turn + 1) * threads <= texels {
-                self.compute_texel(b, k, base, texel)?;
-                continue;
-            }
-            let end = b.i32(texels as i32);
-            let is_one = b.add(Op::Binary(BinaryOp::Lt), [texel, end], Type::BOOL);
-            let then = b.open_region(&[]);
-            self.compute_texel(b, k, base, texel)?;
-            b.close_region(Vec::new());
-            let otherwise = b.open_region(&[]);
-            b.close_region(Vec::new());
-            b.intern(Op::If(then, otherwise), [is_one], Type::Results);
-        }
-        Some(())
+        let [across, down] = Cascade::THREADS;
+        let count = (across * down, tile.size[0] * tile.size[1]);
+        take_turns(b, self.index, count, &mut |b, texel| {
+            self.compute_texel(b, k, base, texel)
+        })
     }
 
     /// First texel of a picture that the workgroup stores.
     fn base(&self, b: &mut Builder<'_>, tile: &Tile) -> NodeId {
-        let sides = [0, 1].map(|axis: usize| (tile.step[axis], self.cascade.threads[axis]));
+        let sides = [0, 1].map(|axis: usize| (tile.step[axis], Cascade::THREADS[axis]));
         if sides.iter().all(|(step, threads)| step == threads) {
             return self.origin;
         }
         let pair = |b: &mut Builder<'_>, of: [u32; 2]| b.constant(PAIR, [of[0], of[1], 0, 0]);
-        let threads = pair(b, self.cascade.threads);
+        let threads = pair(b, Cascade::THREADS);
         let group = add(b, BinaryOp::Div, self.origin, threads);
         name_node(b, group, "group");
         let step = pair(b, tile.step);
@@ -146,7 +128,7 @@ impl Phases<'_> {
     /// Computes the texel of a tile with this number, and stores it.
     fn compute_texel(&self, b: &mut Builder<'_>, k: usize, base: NodeId, texel: NodeId) -> Option<()> {
         let (part, tile) = (&self.parts[k], &self.cascade.tiles[k]);
-        let within = match tile.size == self.cascade.threads {
+        let within = match tile.size == Cascade::THREADS {
             true => self.local,
             false => {
                 let width = b.i32(tile.size[0] as i32);
@@ -259,11 +241,6 @@ impl Phases<'_> {
     }
 }
 
-fn add(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> NodeId {
-    let ty = b.graph().ty(x);
-    b.add(Op::Binary(op), [x, y], ty)
-}
-
 /// A place plus a constant.
 fn moved(b: &mut Builder<'_>, place: NodeId, by: [i32; 2]) -> NodeId {
     if by == [0, 0] {
@@ -271,20 +248,4 @@ fn moved(b: &mut Builder<'_>, place: NodeId, by: [i32; 2]) -> NodeId {
     }
     let by = b.constant(PAIR, [by[0] as u32, by[1] as u32, 0, 0]);
     add(b, BinaryOp::Add, place, by)
-}
-
-/// Names a value that has no place in the source.
-fn name_node(b: &mut Builder<'_>, id: NodeId, name: &str) {
-    let fixed = matches!(b.graph().node(id).op, Op::Const(_) | Op::GroupOrigin | Op::Thread);
-    if fixed || b.graph().origin(id).is_some() {
-        return;
-    }
-    let origin = Origin {
-        name: name.into(),
-        naming: Naming::Let,
-        file: 0,
-        line: Origin::NOWHERE,
-        counters: [].into(),
-    };
-    b.set_origin(id, &origin);
 }

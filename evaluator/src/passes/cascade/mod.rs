@@ -56,8 +56,6 @@ pub struct Tile {
 /// Tiles of the pictures that a workgroup computes, in order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cascade {
-    /// Width and height of a workgroup in threads.
-    pub threads: [u32; 2],
     /// A tile for each picture.
     pub tiles: Vec<Tile>,
 }
@@ -84,7 +82,7 @@ impl Cascade {
     /// Work of all threads, idle ones too, for that of the texels that a workgroup stores; weighed by `cost`, of each picture.
     /// Small tiles keep few threads busy.
     pub fn idleness(&self, cost: &[usize]) -> f64 {
-        let threads = f64::from(self.threads[0] * self.threads[1]);
+        let threads = f64::from(Cascade::THREADS[0] * Cascade::THREADS[1]);
         let each = || self.tiles.iter().zip(cost.iter().map(|cost| *cost as f64));
         let all: f64 = each().map(|(tile, cost)| cost * f64::from(tile.turns) * threads).sum();
         let stored: f64 = each()
@@ -187,10 +185,7 @@ fn choose_tiles(parts: &[Part<'_>], reads: &[Read], side: u32) -> Result<Cascade
             turns: u32::try_from(texels.div_ceil(u64::from(threads))).unwrap_or(u32::MAX),
         }
     });
-    let cascade = Cascade {
-        threads: Cascade::THREADS,
-        tiles: tiles.collect(),
-    };
+    let cascade = Cascade { tiles: tiles.collect() };
     if cascade.byte_size() > MOST_SHARED_BYTES {
         return Err(format!(
             "its tiles do not fit into {MOST_SHARED_BYTES} bytes of workgroup memory"

@@ -1,9 +1,8 @@
 //! Filling and reading of tiles.
 
 use super::{Candidate, Tile};
-use crate::ir::{
-    BinaryOp, Bits, Builder, Graph, Invocation, Memory, Naming, NodeId, Op, Origin, Replace, Scalar, SharedArray, Type,
-};
+use crate::ir::{BinaryOp, Bits, Builder, Graph, Invocation, Memory, NodeId, Op, Replace, Scalar, SharedArray, Type};
+use crate::passes::nodes::{add, name_node, take_turns};
 use std::collections::{BTreeMap, HashMap};
 
 const PAIR: Type = Type::value(Scalar::I32, 2);
@@ -73,28 +72,11 @@ impl<'g> Tiling<'g> {
         let offset = b.constant(PAIR, [first[0] as u32, first[1] as u32, 0, 0]);
         let corner = add(b, BinaryOp::Add, origin, offset);
         name_node(b, corner, "corner");
-        let threads = self.threads[0] * self.threads[1];
-        let texels = size[0] * size[1];
-        for turn in 0..texels.div_ceil(threads) {
-            let mut texel = index;
-            if turn > 0 {
-                let behind = b.i32((turn * threads) as i32);
-                texel = add(b, BinaryOp::Add, index, behind);
-                name_node(b, texel, "index");
-            }
-            if (turn + 1) * threads <= texels {
-                self.fill_texel(b, tiles, corner, texel);
-                continue;
-            }
-            let end = b.i32(texels as i32);
-            let is_one = b.add(Op::Binary(BinaryOp::Lt), [texel, end], Type::BOOL);
-            let then = b.open_region(&[]);
+        let count = (self.threads[0] * self.threads[1], size[0] * size[1]);
+        take_turns(b, index, count, &mut |b, texel| {
             self.fill_texel(b, tiles, corner, texel);
-            b.close_region(Vec::new());
-            let otherwise = b.open_region(&[]);
-            b.close_region(Vec::new());
-            b.intern(Op::If(then, otherwise), [is_one], Type::Results);
-        }
+            Some(())
+        });
     }
 
     /// Fills one element of each of the given tiles.
@@ -224,31 +206,10 @@ impl Replace for Tiling<'_> {
     }
 }
 
-fn add(b: &mut Builder<'_>, op: BinaryOp, x: NodeId, y: NodeId) -> NodeId {
-    let ty = b.graph().ty(x);
-    b.add(Op::Binary(op), [x, y], ty)
-}
-
 /// The frame's last pixel.
 fn last_pixel(b: &mut Builder<'_>) -> NodeId {
     let (frame, one) = (b.add(Op::FrameSize, Vec::new(), PAIR), b.constant(PAIR, [1, 1, 0, 0]));
     let last = add(b, BinaryOp::Sub, frame, one);
     name_node(b, last, "last");
     last
-}
-
-/// Names a value that has no place in the source.
-fn name_node(b: &mut Builder<'_>, id: NodeId, name: &str) {
-    let fixed = matches!(b.graph().node(id).op, Op::Const(_) | Op::GroupOrigin | Op::Pixel);
-    if fixed || b.graph().origin(id).is_some() {
-        return;
-    }
-    let origin = Origin {
-        name: name.into(),
-        naming: Naming::Let,
-        file: 0,
-        line: Origin::NOWHERE,
-        counters: [].into(),
-    };
-    b.set_origin(id, &origin);
 }
