@@ -8,6 +8,7 @@ use crate::timer::{Span, Timer};
 use crate::uniforms::{UniformValue, Uniforms};
 use crate::{Error, Region};
 use std::sync::Arc;
+use straightline_manifest::plan::workgroups_of_tiles;
 use wgpu::{CommandEncoder, ComputePass, Queue, RenderPass, TextureView};
 
 /// Maximum number of targets of a fragment shader: wgpu's limit on any device.
@@ -60,9 +61,13 @@ impl Work {
         match pipeline {
             Pipeline::Compute { pipeline, workgroup } => Work::Compute {
                 pipeline: pipeline.clone(),
-                workgroups: plan
-                    .workgroups_of_tiles(targets.iter().map(|target| texture_size(target.texture())))
-                    .unwrap_or_else(|| [0, 1].map(|axis| size[axis].div_ceil(workgroup[axis] * plan.block[axis]))),
+                workgroups: workgroups_of_tiles(
+                    plan.outputs
+                        .iter()
+                        .zip(targets)
+                        .map(|(output, target)| (output.tile, texture_size(target.texture()))),
+                )
+                .unwrap_or_else(|| [0, 1].map(|axis| size[axis].div_ceil(workgroup[axis] * plan.block[axis]))),
             },
             Pipeline::Render(pipeline) => Work::Draw {
                 pipeline: pipeline.clone(),

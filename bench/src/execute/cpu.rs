@@ -9,6 +9,7 @@ use straightline_codegen::Unroll;
 use straightline_codegen::interp::{self, Bindings, Image, Interpreter, MOST_ITERATIONS, Scratch};
 use straightline_codegen::ir::{Access, Op, Real, Scalar};
 use straightline_kernels::prelude::Frame;
+use straightline_manifest::plan::workgroups_of_tiles;
 
 /// Result of the interpreter.
 #[derive(Clone, Debug)]
@@ -222,12 +223,9 @@ fn image_sizes(compiled: &Compiled, inputs: &Inputs) -> Result<Vec<[u32; 2]>, Ex
 /// Width and height in threads of a kernel whose images have tiles. `None` of one with a frame.
 fn frame_of(compiled: &Compiled, image_sizes: &[[u32; 2]]) -> Option<[u32; 2]> {
     let threads = compiled.graph.invocation.tile_size();
-    let mut most = None;
-    for (image, size) in compiled.graph.images.iter().zip(image_sizes) {
-        let (tile, before) = (image.tile?, most.unwrap_or([1, 1]));
-        most = Some([0, 1].map(|axis| size[axis].div_ceil(tile[axis]).max(before[axis])));
-    }
-    most.map(|groups| [0, 1].map(|axis| groups[axis] * threads[axis]))
+    let tiles = compiled.graph.images.iter().map(|image| image.tile);
+    let groups = workgroups_of_tiles(tiles.zip(image_sizes.iter().copied()))?;
+    Some([0, 1].map(|axis| groups[axis] * threads[axis]))
 }
 
 /// A sampler's state as the interpreter takes it.

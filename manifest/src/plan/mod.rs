@@ -203,20 +203,15 @@ pub struct OutputPlan {
     pub tile: Option<[u32; 2]>,
 }
 
-impl Plan {
-    /// Returns the workgroups that a dispatch needs for outputs of these `sizes`, across and down, if the outputs have sizes of
-    /// their own.
-    pub fn workgroups_of_tiles(&self, sizes: impl IntoIterator<Item = [u32; 2]>) -> Option<[u32; 2]> {
-        let mut most = None;
-        for (output, size) in self.outputs.iter().zip(sizes) {
-            let (tile, [across, down]) = (output.tile?, most.unwrap_or([1, 1]));
-            most = Some([
-                across.max(size[0].div_ceil(tile[0])),
-                down.max(size[1].div_ceil(tile[1])),
-            ]);
-        }
-        most
+/// Returns the workgroups that a dispatch needs for outputs of which each has a tile and a size, across and down: those of the
+/// output that needs most. `None` if an output has no tile, or if there is none.
+pub fn workgroups_of_tiles(outputs: impl IntoIterator<Item = (Option<[u32; 2]>, [u32; 2])>) -> Option<[u32; 2]> {
+    let mut most = None;
+    for (tile, size) in outputs {
+        let (tile, before) = (tile?, most.unwrap_or([1, 1]));
+        most = Some([0, 1].map(|axis: usize| size[axis].div_ceil(tile[axis]).max(before[axis])));
     }
+    most
 }
 
 impl OverridePlan {
