@@ -55,7 +55,7 @@ impl<'a> Shader<'a> {
     ///
     /// # Errors
     ///
-    /// Those of [`from_manifest`](Self::from_manifest).
+    /// Errors of [`from_manifest`](Self::from_manifest).
     pub fn with_source_map(manifest: &Manifest, wgsl: &'a str, map: SourceMap) -> Result<Self, Error> {
         let shader = Self::from_manifest(manifest, wgsl).map_err(|error| locate_error(error, &map))?;
         Ok(Shader {

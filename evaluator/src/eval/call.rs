@@ -375,7 +375,7 @@ impl<'a> Evaluator<'a> {
             // The library's body is hidden, so the error belongs to the call.
             Err(Exit::Error(error)) if of_library => Err(error.called_at(span, name).into()),
             Err(Exit::Demand(needs)) if of_library => Err(Exit::Demand(called_at(needs, span, name))),
-            Err(Exit::Left(Jump::Unreachable(at))) => Err(Exit::Left(Jump::Unreachable(at))),
+            Err(exit @ Exit::Left(Jump::Unreachable(_))) => Err(exit),
             Err(Exit::Left(_)) => {
                 Err(
                     Diagnostic::error_at(Code::Leaving, function.span, "`break` or `continue` outside of a loop")

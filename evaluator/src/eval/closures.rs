@@ -105,7 +105,7 @@ impl Evaluator<'_> {
         self.report.leave_call();
         self.scope.leave_function(outer);
         match result {
-            Err(Exit::Left(Jump::Unreachable(at))) => Err(Exit::Left(Jump::Unreachable(at))),
+            Err(exit @ Exit::Left(Jump::Unreachable(_))) => Err(exit),
             Err(Exit::Left(_)) => {
                 Err(Diagnostic::error_at(Code::Leaving, span, "`break` or `continue` outside of a loop").into())
             }
