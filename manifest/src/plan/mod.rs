@@ -5,6 +5,7 @@
 
 #[cfg(feature = "json")]
 mod binding;
+mod difference;
 #[cfg(feature = "json")]
 mod read;
 

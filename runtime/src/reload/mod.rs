@@ -1,12 +1,9 @@
 //! Kernels that are generated again when their files change, while the program runs.
 
-mod change;
-
 use crate::bound::Work;
 use crate::pipeline::Pipeline;
 use crate::plan::Plan;
 use crate::{Bound, Error, Pass, PassOptions, Pending, Shader};
-use change::find_change;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
@@ -176,7 +173,7 @@ fn make_pass(
         Some(map) => Shader::with_source_map(manifest, wgsl, map)?,
         None => Shader::from_manifest(manifest, wgsl)?,
     };
-    if let Some(change) = plan.and_then(|plan| find_change(plan, &shader.plan)) {
+    if let Some(change) = plan.and_then(|plan| plan.find_layout_difference(&shader.plan)) {
         return Err(Error::Changed {
             kernel: shader.kernel().to_owned(),
             change,
