@@ -53,6 +53,8 @@ fn run_command(arguments: Arguments) -> Result<(), Failure> {
         Command::Isa(args) => commands::compilers::list_compilers(&args),
         #[cfg(feature = "study")]
         Command::Tune(args) => commands::tune::tune_shader(&args),
+        #[cfg(feature = "study")]
+        Command::Choose(args) => commands::choose::choose_candidates(&args),
         Command::Page(args) => commands::page::write_page(&args),
         Command::Resolve(args) => commands::resolve::resolve_capture(&args),
         Command::Capture(args) => commands::capture::render_capture(&args),
@@ -64,6 +66,7 @@ fn run_command(arguments: Arguments) -> Result<(), Failure> {
         | Command::Figures(args)
         | Command::Study(args)
         | Command::Isa(args)
+        | Command::Choose(args)
         | Command::Tune(args) => Err(args.refusal()),
         #[cfg(feature = "study")]
         Command::ServeIsa => straightline_isa::serve().map_err(Failure::from_error),

@@ -58,6 +58,11 @@ impl Gpu {
         self.rows().map_or("this machine", |(vendor, _)| vendor.title)
     }
 
+    /// Number by which graphics interfaces know the vendor, such as 0x1002; `None` for the GPU of this machine.
+    pub fn vendor_id(self) -> Option<u32> {
+        self.rows().map(|(vendor, _)| vendor.id)
+    }
+
     /// Name without the vendor: `navi21`.
     pub fn model_name(self) -> &'static str {
         self.rows().map_or("device", |(_, model)| model.name)

@@ -9,6 +9,8 @@ pub(crate) struct Vendor {
     pub name: &'static str,
     /// Name in sentences.
     pub title: &'static str,
+    /// Number by which graphics interfaces know the vendor: that of PCI, mostly.
+    pub id: u32,
     /// First word of the file that names the driver for Vulkan's loader.
     pub manifest: &'static str,
     /// Library that stands in for the kernel's part of the driver.
@@ -58,6 +60,7 @@ pub(crate) static VENDORS: [Vendor; 8] = [
     Vendor {
         name: "amd",
         title: "AMD",
+        id: 0x1002,
         manifest: "radeon",
         shim: "libamdgpu_noop_drm_shim.so",
         variable: "AMDGPU_GPU_ID",
@@ -83,6 +86,7 @@ pub(crate) static VENDORS: [Vendor; 8] = [
     Vendor {
         name: "nvidia",
         title: "NVIDIA",
+        id: 0x10de,
         manifest: "nouveau",
         shim: "libnouveau_noop_drm_shim.so",
         variable: "NOUVEAU_CHIPSET",
@@ -103,6 +107,7 @@ pub(crate) static VENDORS: [Vendor; 8] = [
     Vendor {
         name: "intel",
         title: "Intel",
+        id: 0x8086,
         manifest: "intel",
         shim: "libintel_noop_drm_shim.so",
         variable: "INTEL_STUB_GPU_PLATFORM",
@@ -123,6 +128,7 @@ pub(crate) static VENDORS: [Vendor; 8] = [
     Vendor {
         name: "qualcomm",
         title: "Qualcomm",
+        id: 0x5143,
         manifest: "freedreno",
         shim: "libfreedreno_noop_drm_shim.so",
         variable: "FD_GPU_ID",
@@ -147,6 +153,7 @@ pub(crate) static VENDORS: [Vendor; 8] = [
     Vendor {
         name: "apple",
         title: "Apple",
+        id: 0x106b,
         manifest: "asahi",
         shim: "libasahi_noop_drm_shim.so",
         variable: "",
@@ -159,6 +166,7 @@ pub(crate) static VENDORS: [Vendor; 8] = [
     Vendor {
         name: "arm",
         title: "Arm",
+        id: 0x13b5,
         manifest: "panfrost",
         shim: "libpanfrost_noop_drm_shim.so",
         variable: "PAN_GPU_ID",
@@ -175,6 +183,7 @@ pub(crate) static VENDORS: [Vendor; 8] = [
     Vendor {
         name: "broadcom",
         title: "Broadcom",
+        id: 0x14e4,
         manifest: "broadcom",
         shim: "libv3d_noop_drm_shim.so",
         variable: "V3D_GPU_ID",
@@ -190,6 +199,7 @@ pub(crate) static VENDORS: [Vendor; 8] = [
     Vendor {
         name: "imagination",
         title: "Imagination",
+        id: 0x1010,
         manifest: "powervr",
         shim: "libpowervr_noop_drm_shim.so",
         variable: "PVR_SHIM_DEVICE_BVNC",

@@ -4,7 +4,8 @@
 //! text and a manifest that travelled (the feature `manifest`). Binding it takes texture
 //! views, samplers and buffers by name, and a target, and checks them; the [`Bound`] that it gives is recorded every frame, which cannot
 //! fail and costs what a hand-written wgpu pass does. A [`Draw`] is the same for triangles of the caller's. Nothing here creates a device, submits, or owns a texture, but for
-//! [`Quads::detect`], which asks a device what its pixel quads can do.
+//! [`Quads::detect`], which asks a device what its pixel quads can do, and [`Choices::choose`], which times shaders that compute
+//! the same.
 //!
 //! ```no_run
 //! use straightline_runtime::{Bound, Error, Pass, PassOptions, Shader, wgpu};
@@ -67,6 +68,7 @@ mod bind;
 mod bound;
 mod cache;
 mod chain;
+mod choice;
 mod draw;
 mod error;
 mod guard;
@@ -98,6 +100,7 @@ mod uniforms;
 pub use bound::Bound;
 pub use cache::{CacheOrigin, PipelineCacheFile};
 pub use chain::{BoundChain, Chain, ChainShaders};
+pub use choice::{Candidate, Choice, Choices, Chosen, Reason};
 pub use draw::{BoundDraw, Draw, DrawOptions, VertexShader};
 pub use error::{BufferProblem, ChainProblem, Error, Names, SamplerProblem, ViewProblem};
 pub use options::{BindOptions, PassOptions};

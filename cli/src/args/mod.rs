@@ -28,8 +28,8 @@ use straightline_codegen::{Precision, ShaderSpec, shorten};
 pub use absent::Gpu;
 #[cfg(not(feature = "study"))]
 use absent::{
-    AbsentArgs as BudgetArgs, AbsentArgs as CompilersArgs, AbsentArgs as FiguresArgs, AbsentArgs as QuadsArgs,
-    AbsentArgs as StudyArgs, AbsentArgs as TuneArgs,
+    AbsentArgs as BudgetArgs, AbsentArgs as ChooseArgs, AbsentArgs as CompilersArgs, AbsentArgs as FiguresArgs,
+    AbsentArgs as QuadsArgs, AbsentArgs as StudyArgs, AbsentArgs as TuneArgs,
 };
 pub use at::At;
 pub use capture::{CaptureArgs, CompareArgs, PlacedByArg, ResolveArgs, ViewArgs};
@@ -42,8 +42,8 @@ pub use run::{Executor, GivenArgs, RunArgs, WatchArgs};
 pub use straightline_isa::Gpu;
 #[cfg(feature = "study")]
 pub use study::{
-    AllArgs, ChainsArgs, CommonArgs, CompilersArgs, ErrorArgs, FilmArgs, FrameArgs, Gpus, HardArgs, IsaArgs, LoopsArgs,
-    MotionArgs, PrecisionArgs, Study, StudyArgs,
+    AllArgs, ChainsArgs, ChooseArgs, CommonArgs, CompilersArgs, ErrorArgs, FilmArgs, FrameArgs, Gpus, HardArgs,
+    IsaArgs, LoopsArgs, MotionArgs, PrecisionArgs, Study, StudyArgs,
 };
 #[cfg(feature = "study")]
 pub use sweep::{CardArgs, MergeArgs, RecordsArgs, SweepArgs};
@@ -91,6 +91,8 @@ pub enum Command {
     Study(StudyArgs),
     /// Find and emit the cheapest SRAA shader for a scene
     Tune(TuneArgs),
+    /// Compare the candidates for a shader by the compilers of GPUs
+    Choose(ChooseArgs),
     /// Write the web page that shows and edits kernels
     Page(PageArgs),
     /// Antialias a captured frame

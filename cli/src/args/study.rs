@@ -1,7 +1,7 @@
 //! Arguments of `study` and `tune`.
 
 use super::{AdapterArgs, CardArgs, KernelArgs, MergeArgs, RecordsArgs, SweepArgs, size};
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueHint};
 use glam::{UVec2, Vec2};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -155,6 +155,20 @@ impl FromStr for Gpus {
     fn from_str(text: &str) -> Result<Gpus, String> {
         Gpu::parse_several(text).map(Gpus)
     }
+}
+
+/// Arguments of `choose`.
+#[derive(Clone, Debug, Args)]
+pub struct ChooseArgs {
+    /// List of candidates that `build.rs` wrote beside the shaders: NAME.candidates.txt
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub list: PathBuf,
+    /// GPU such as amd:navi21, or all of a vendor such as nvidia (see `straightline isa`); several with commas
+    #[arg(long, value_name = "VENDOR[:GPU]", required = true, value_delimiter = ',')]
+    pub isa: Vec<Gpus>,
+    /// File of choices to add each vendor's to
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of `isa`.

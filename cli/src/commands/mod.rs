@@ -7,6 +7,8 @@ pub mod budget;
 pub mod capture;
 mod chain;
 pub mod check;
+#[cfg(feature = "study")]
+pub mod choose;
 pub mod compare;
 #[cfg(feature = "study")]
 pub mod compilers;

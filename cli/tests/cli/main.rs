@@ -7,6 +7,7 @@ mod captions;
 mod capture;
 mod chains;
 mod check;
+mod choose;
 #[path = "../common/mod.rs"]
 mod common;
 mod compare;

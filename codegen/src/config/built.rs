@@ -1,5 +1,6 @@
 //! Shaders, sets of them and chains, between their configuration and the files.
 
+use super::candidates::{BuiltCandidates, build_candidates};
 use super::error::{Error, Problem};
 use super::shader::{BuiltShader, build_shader};
 use super::variants::{BuiltVariants, build_variants};
@@ -14,6 +15,7 @@ use straightline_evaluator::front::raw_name;
 /// A shader, a set of them or a chain, ready to be written.
 pub(super) enum Built {
     Shader(Box<BuiltShader>),
+    Candidates(BuiltCandidates),
     Variants(BuiltVariants),
     Chain(Box<(CompiledChain, EmittedChain)>),
 }
@@ -25,10 +27,10 @@ impl Built {
             && let Some(chain) = Chain::from_file(path, config.function.as_deref()).map_err(Error::from_errors)?
         {
             check_name(config.name.as_deref().unwrap_or(chain.name()))?;
-            if !config.variants.axes().is_empty() {
+            if !config.variants.axes().is_empty() || !config.candidates.is_empty() {
                 return Err(Error::from_problem(Problem::Variants(
                     chain.name().to_owned(),
-                    "a chain has no variants: add it once for each".to_owned(),
+                    "a chain has neither variants nor candidates: add it once for each".to_owned(),
                 )));
             }
             return build_chain(config, chain).map_err(Error::from_errors);
@@ -36,6 +38,9 @@ impl Built {
         let kernel = load_kernel(config)?;
         let name = config.name.clone().unwrap_or_else(|| kernel.name().to_owned());
         check_name(&name)?;
+        if !config.candidates.is_empty() {
+            return build_candidates(config, &kernel, name).map(Built::Candidates);
+        }
         if !config.variants.axes().is_empty() {
             return build_variants(config, &kernel, name).map(Built::Variants);
         }
@@ -47,6 +52,7 @@ impl Built {
     pub fn name(&self) -> &str {
         match self {
             Built::Shader(shader) => &shader.name,
+            Built::Candidates(set) => set.name(),
             Built::Variants(set) => &set.name,
             Built::Chain(chain) => &chain.1.plan.chain,
         }
@@ -55,6 +61,7 @@ impl Built {
     pub fn files(&self) -> BTreeMap<String, Vec<u8>> {
         match self {
             Built::Shader(shader) => shader.emitted.named_files(&shader.name),
+            Built::Candidates(set) => set.files(),
             Built::Variants(set) => set.files(),
             Built::Chain(chain) => chain.1.named_files(),
         }
@@ -64,6 +71,7 @@ impl Built {
     pub fn push_module<'a>(&'a self, modules: &mut Modules<'a>) {
         match self {
             Built::Shader(shader) => modules.shaders.push(shader.bindings_module()),
+            Built::Candidates(set) => modules.candidates.push(set.bindings_module()),
             Built::Variants(set) => modules.variants.push(set.bindings_module()),
             Built::Chain(chain) => modules.chains.push(emit::ChainModule {
                 compiled: &chain.0,
@@ -78,7 +86,7 @@ impl KernelConfig {
     ///
     /// # Errors
     ///
-    /// Every error of the kernel. A chain and a set of variants are refused: they are not one shader.
+    /// Every error of the kernel. A chain and a set of variants or candidates are refused: they are not one shader.
     pub fn emit(&self) -> Result<Emitted, Error> {
         match Built::new(self)? {
             Built::Shader(shader) => Ok(shader.emitted),

@@ -18,7 +18,11 @@ pub(super) enum Problem {
     Variant(String, #[source] Errors),
     #[error("variants of `{0}`: {1}")]
     Variants(String, String),
-    #[error("`{0}` is a chain or a set of variants, and one shader is wanted: generate it by `Config`")]
+    #[error("in the candidate `{0}`:\n{1}")]
+    Candidate(String, #[source] Errors),
+    #[error("candidates for `{0}`: {1}")]
+    Candidates(String, String),
+    #[error("`{0}` is a chain, a set of variants or of candidates, and one shader is wanted: generate it by `Config`")]
     Several(String),
     #[error(transparent)]
     Write(WriteError),

@@ -15,6 +15,7 @@
 //! The crate then says `straightline_runtime::include_shaders!();` where it wants the modules.
 
 mod built;
+mod candidates;
 mod error;
 mod shader;
 mod variants;

@@ -67,7 +67,7 @@ pub(super) fn build_variants(config: &KernelConfig, kernel: &Kernel, name: Strin
 
 /// Text of a shader without the comment at its head, which names the options, and its bindings: shaders that are equal in both
 /// are one.
-fn identity(shader: &BuiltShader) -> (String, String) {
+pub(super) fn identity(shader: &BuiltShader) -> (String, String) {
     let text = shader.emitted.wgsl();
     let code = text.lines().skip_while(|line| line.starts_with("//"));
     let plan = Plan::from_manifest(&shader.emitted.manifest);

@@ -1,6 +1,6 @@
 //! A kernel with the description of its shader, for a `build.rs`.
 
-use super::{ShaderSpec, Target, Variants};
+use super::{Candidates, ShaderSpec, Target, Variants};
 use crate::chain::Fuse;
 use std::path::{Path, PathBuf};
 use straightline_kernels::KernelOptions;
@@ -23,6 +23,8 @@ pub struct KernelConfig {
     pub(crate) most_outputs: Option<u32>,
     /// Options with several values.
     pub(crate) variants: Variants,
+    /// Other settings with which the shader computes the same.
+    pub(crate) candidates: Candidates,
     /// Additional files with functions that the kernel calls.
     pub(crate) sources: Vec<PathBuf>,
 }
@@ -46,6 +48,7 @@ impl KernelConfig {
             pictures: None,
             most_outputs: None,
             variants: Variants::default(),
+            candidates: Candidates::default(),
             sources: Vec::new(),
         }
     }
@@ -168,6 +171,23 @@ impl KernelConfig {
     /// ```
     pub fn variants(mut self, variants: impl FnOnce(Variants) -> Variants) -> Self {
         self.variants = variants(self.variants);
+        self
+    }
+
+    /// Generates another shader that computes the same by other settings. The shader's own settings are the candidate
+    /// `default`.
+    ///
+    /// The module then has the constant `CANDIDATES`, and `Pass::choose`, which times them on the user's device.
+    /// A candidate has the same options, inputs, uniforms and targets.
+    ///
+    /// ```
+    /// # use straightline_codegen::{Config, Share, Unroll};
+    /// let shaders = Config::new().file_with("src/blur.rs", |k| {
+    ///     k.candidate("looped", |s| s.unroll(Unroll::None)).candidate("shared", |s| s.share(Share::WORKGROUP))
+    /// });
+    /// ```
+    pub fn candidate(mut self, name: &str, change: impl Fn(ShaderSpec) -> ShaderSpec + Send + Sync + 'static) -> Self {
+        self.candidates.push(name, change);
         self
     }
 

@@ -15,6 +15,7 @@
 //! # Ok::<(), straightline_codegen::diagnostic::Errors>(())
 //! ```
 
+mod candidates;
 mod debug_info;
 mod declare;
 mod kernel_config;
@@ -26,6 +27,7 @@ mod texels;
 mod value;
 mod variants;
 
+pub(crate) use candidates::Candidates;
 pub use debug_info::DebugInfo;
 pub use kernel_config::KernelConfig;
 pub(crate) use kernel_config::Source;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use straightline_codegen::chain::Fuse;
 use straightline_codegen::emit::{self, Module, Modules, Target};
-use straightline_codegen::{Config, EmitOptions, Format, Kernel, Settings, Stage, Unroll};
+use straightline_codegen::{Config, EmitOptions, Format, Kernel, Settings, Share, Stage, Unroll};
 
 /// As much of the runtime as bindings name, beside what their constants are made of, which is the runtime's own.
 const RUNTIME: &str = r#"
@@ -45,6 +45,11 @@ impl PassOptions { pub fn override_option(self, _: &str, _: impl Into<OverrideVa
 impl Passes {
     pub fn new(_: &wgpu::Device, _: PassOptions) -> Passes { Passes }
     pub fn get(&mut self, _: &Shader<'_>) -> Result<&Pass, Error> { Ok(&Pass) }
+}
+pub struct Candidate<'a> { pub name: &'a str, pub shader: &'a Shader<'a> }
+pub struct Choices; pub struct Chosen { pub pass: Pass }
+impl Choices {
+    pub fn choose(&mut self, _: (&wgpu::Device, &wgpu::Queue), _: &[Candidate<'_>], _: &PassOptions, _: impl FnMut(&Pass) -> Result<Bound, Error>) -> Result<Chosen, Error> { Ok(Chosen { pass: Pass }) }
 }
 #[derive(Debug)] pub struct Pass;
 impl Pass {
@@ -265,6 +270,52 @@ fn bindings_compile_with_overrides_of_every_type() {
         written.contains("tau: -0.5") && written.contains("range: Some([-1f64, 1000000000f64])"),
         "{written}"
     );
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// A shader with candidates has the modules of all of them, each text once, and a pass that chooses.
+#[test]
+fn bindings_of_candidates_compile() {
+    let folder = folder("candidates");
+    runtime(&folder);
+    let text = "
+        /// A blur.
+        pub fn blur(color: &Frame<Vec4>, gain: f32, pixel: IVec2) -> Vec4 {
+            let mut sum = Vec4::ZERO;
+            for y in -1..=1 {
+                for x in -1..=1 {
+                    sum += color.load(pixel + ivec2(x, y));
+                }
+            }
+            sum * gain
+        }";
+    std::fs::write(folder.join("blur.rs"), text).expect("written");
+    let config = Config::new().out_dir(&folder).file_with(folder.join("blur.rs"), |k| {
+        // The candidates are of settings that come later, too.
+        k.candidate("looped", |s| s.unroll(Unroll::None))
+            .candidate("whole", |s| s.unroll(Unroll::Full))
+            .candidate("shared", |s| s.share(Share::WORKGROUP))
+            .workgroup(16, 4)
+    });
+    config.compile().unwrap_or_else(|e| panic!("{e}"));
+    rustc(&folder, "straightline.rs", &BINDINGS);
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).expect("written");
+    let written = read("straightline.rs");
+    for part in [
+        "pub mod blur_looped {",
+        "pub mod blur_shared {",
+        "/// `whole` has the same text as `default`.",
+        "pub static CANDIDATES: [straightline_runtime::Candidate<'static>; 3] = [",
+        "pub fn choose(",
+    ] {
+        assert!(written.contains(part), "{part}\n{written}");
+    }
+    assert!(!written.contains("mod blur_whole"), "{written}");
+    assert_eq!(
+        read("blur.candidates.txt"),
+        "# candidates for blur\ndefault blur\nlooped blur_looped\nshared blur_shared\n"
+    );
+    assert!(read("blur_looped.wgsl").contains("@workgroup_size(16, 4, 1)"));
     std::fs::remove_dir_all(&folder).expect("removed");
 }
 

@@ -5,7 +5,7 @@ use std::io;
 use std::path::PathBuf;
 use straightline_codegen::config::{KernelConfig, Variants};
 use straightline_codegen::emit::Target;
-use straightline_codegen::{Config, Form, Manifest, Origin, Stage, Transport, Unroll};
+use straightline_codegen::{Config, Form, Format, Manifest, Origin, Stage, Transport, Unroll};
 
 fn said(config: &Config) -> String {
     config.compile().expect_err("a refusal").to_string()
@@ -70,6 +70,34 @@ fn variants_that_cannot_be_are_refused_by_their_options() {
         error,
         "variants of `sraa`: the option `pattern` is varied, and set to `latin4` for all: leave one out"
     );
+}
+
+#[test]
+fn candidates_that_cannot_take_its_place_are_refused() {
+    let refused = |options: fn(KernelConfig) -> KernelConfig| {
+        said(&Config::new().kernel("sraa", options).out_dir(folder("candidates")))
+    };
+    let error = refused(|k| k.candidate("few", |s| s.set("pattern", "latin16")));
+    assert_eq!(
+        error,
+        "candidates for `sraa`: the candidate `few` sets options, and candidates compute the same: use `.variants(..)`"
+    );
+    let error = refused(|k| k.candidate("a b", |s| s));
+    assert!(error.contains("`a b` cannot name a candidate"), "{error}");
+    let error = refused(|k| k.candidate("rgba8", |s| s.format(Format::Rgba8Unorm)));
+    assert!(error.contains("`rgba8` cannot take its place: target `"), "{error}");
+    let error = refused(|k| {
+        k.candidate("blocks", |s| s.block(3, 1))
+            .candidate("none", |s| s.workgroup(0, 1))
+    });
+    assert!(error.contains("in the candidate `none`:\nerror[E"), "{error}");
+    let error = refused(|k| {
+        k.candidate("looped", |s| s.unroll(Unroll::None))
+            .variants(|v| v.set("metric", ["depth"]))
+    });
+    assert!(error.contains("it has variants, too"), "{error}");
+    let error = refused(|k| k.form(Form::Function).candidate("looped", |s| s.unroll(Unroll::None)));
+    assert!(error.contains("only passes are timed"), "{error}");
 }
 
 /// The manifest, the shader and the Rust of one built-in kernel.

@@ -1,14 +1,14 @@
-//! Runs one picture through one pass. Apart from the three lines of `shaders`, everything here is the caller's own wgpu code.
+//! Runs one picture through one pass. Apart from the lines of `glow`, everything here is the caller's own wgpu code.
 
 use crate::shaders::glow;
 use straightline_kernels::prelude::*;
-use straightline_runtime::wgpu;
+use straightline_runtime::{Choices, PassOptions, wgpu};
 use wgpu::{TextureFormat, TextureUsages};
 
 type Failure = Box<dyn std::error::Error>;
 
 /// Returns the picture with its glow.
-pub fn glow(picture: &Frame<Vec4>, strength: f32) -> Result<Frame<Vec4>, Failure> {
+pub fn glow(picture: &Frame<Vec4>, strength: f32, choices: &mut Choices) -> Result<Frame<Vec4>, Failure> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;
     let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))?;
@@ -21,8 +21,11 @@ pub fn glow(picture: &Frame<Vec4>, strength: f32) -> Result<Frame<Vec4>, Failure
     let output = texture(&device, size, TextureFormat::Rgba16Float, TextureUsages::STORAGE_BINDING | TextureUsages::COPY_SRC);
     let (color, target) = (view(&input), view(&output));
 
-    let pass = glow::Pass::new(&device)?;
-    let bound = pass.bind(&glow::Inputs { color: &color }, &glow::Parameters { strength, ..Default::default() }, &target)?;
+    // The fastest candidate on this device: the remembered one, or else all are timed.
+    let (inputs, parameters) = (glow::Inputs { color: &color }, glow::Parameters { strength, ..Default::default() });
+    let options = PassOptions::default();
+    let pass = glow::Pass::choose((&device, &queue), choices, &options, &inputs, &parameters, &target)?;
+    let bound = pass.bind(&inputs, &parameters, &target)?;
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     bound.encode(&mut encoder);
 

@@ -1,4 +1,4 @@
-//! Adds a glow to the bright areas of a picture, and writes `glow.png`.
+//! Adds a glow to the bright areas of a picture, and writes `glow.png`. `glow.choices.txt` remembers which shader is fastest.
 //!
 //! `cargo run [--release] [PICTURE.png] [--cpu]`: without a picture, a test picture is generated. With `--cpu` the kernel runs as
 //! rustc compiled it, otherwise as the generated shader.
@@ -14,7 +14,9 @@ mod shaders {
 }
 
 use kernels::glow::{Glow, glow};
+use std::path::Path;
 use straightline_kernels::prelude::*;
+use straightline_runtime::Choices;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (flags, paths): (Vec<String>, Vec<String>) = std::env::args().skip(1).partition(|a| a.starts_with("--"));
@@ -23,7 +25,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         None => discs(uvec2(640, 360)),
     };
     let cfg = Glow { strength: 1.5, ..Glow::default() };
-    let glowing = if flags.iter().any(|f| f == "--cpu") { native(&cfg, &picture) } else { gpu::glow(&picture, cfg.strength)? };
+    let glowing = if flags.iter().any(|f| f == "--cpu") {
+        native(&cfg, &picture)
+    } else {
+        let file = Path::new("glow.choices.txt");
+        let mut choices = Choices::read(file).unwrap_or_default();
+        let glowing = gpu::glow(&picture, cfg.strength, &mut choices)?;
+        choices.write(file)?;
+        glowing
+    };
     write("glow.png", &glowing)?;
     println!("glow.png");
     Ok(())
@@ -67,7 +77,8 @@ mod tests {
     fn shader_and_kernel_agree() {
         let picture = discs(uvec2(161, 73));
         let cfg = Glow { strength: 1.5, ..Glow::default() };
-        let shader = gpu::glow(&picture, cfg.strength).expect("an adapter; a software one is in Debian's mesa-vulkan-drivers");
+        let shader = gpu::glow(&picture, cfg.strength, &mut Choices::new())
+            .expect("an adapter; a software one is in Debian's mesa-vulkan-drivers");
         for (k, (a, b)) in native(&cfg, &picture).texels().iter().zip(shader.texels()).enumerate() {
             // The shader writes halves.
             assert!((*a - *b).abs().max_element() < 1.0e-3, "pixel {k}: {a} and {b}");

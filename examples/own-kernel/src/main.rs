@@ -8,16 +8,16 @@ use std::error::Error;
 use straightline_runtime::{Bound, wgpu};
 use wgpu::{TextureFormat, TextureUsages};
 
+/// The kernel as Rust, for the editor and for `cargo test`. `build.rs` reads the same file.
+#[allow(dead_code, clippy::pedantic, reason = "it runs as a shader")]
+mod kernels {
+    pub mod lens;
+}
+
 /// Output of `build.rs`: a module for each kernel.
 mod shaders {
     straightline_runtime::include_shaders!();
 }
-
-/// The kernel as Rust, with its tests.
-#[cfg(test)]
-#[path = "kernels/lens.rs"]
-#[allow(dead_code, reason = "the program runs it as a shader")]
-mod lens;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);

@@ -451,7 +451,7 @@ pub enum Error {
         name: String,
     },
 
-    /// The file of a pipeline cache cannot be written.
+    /// A file of a pipeline cache or of choices cannot be written.
     #[error(transparent)]
     Write(#[from] straightline_files::WriteError),
 
@@ -484,6 +484,28 @@ pub enum Error {
     TimerPeriod {
         /// Nanoseconds a tick.
         period: f32,
+    },
+
+    /// There is no candidate to choose.
+    #[error("there are no candidates to choose from")]
+    NoCandidates,
+
+    /// A line of a text is no choice between candidates.
+    #[error("line {line} of the choices cannot be read: {problem}")]
+    Choices {
+        /// Number of the line, from 1.
+        line: usize,
+        /// Description of the problem.
+        problem: String,
+    },
+
+    /// A file cannot be read.
+    #[error("cannot read `{}`: {source}", path.display())]
+    Read {
+        /// The file.
+        path: std::path::PathBuf,
+        /// The system's error.
+        source: std::io::Error,
     },
 
     /// Reading a timer back failed.

@@ -4,6 +4,7 @@ mod cache;
 mod chains;
 mod chains_history;
 mod chains_made;
+mod choice;
 #[path = "../common/mod.rs"]
 mod common;
 mod dependencies;

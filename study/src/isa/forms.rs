@@ -58,7 +58,11 @@ pub fn emit_forms(asking: &Asking, glslang: Option<&Path>) -> Result<Vec<Spirv>,
     Ok(all)
 }
 
-/// Translates foreign WGSL to SPIR-V by naga.
+/// Translates WGSL to SPIR-V by naga, without bounds on loops.
+///
+/// # Errors
+///
+/// naga's message, if the WGSL is not valid.
 pub fn by_naga(wgsl: &str) -> Result<Vec<u8>, String> {
     let module = naga::front::wgsl::parse_str(wgsl).map_err(|e| e.emit_to_string(wgsl))?;
     let mut validator = naga::valid::Validator::new(Default::default(), Default::default());

@@ -9,7 +9,7 @@ use crate::progress::Progress;
 use crate::record::{Asked, IsaRecord};
 use forms::emit_forms;
 
-pub(crate) use forms::by_naga as spirv_by_naga;
+pub use forms::by_naga as spirv_by_naga;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use straightline_codegen::diagnostic::Errors;

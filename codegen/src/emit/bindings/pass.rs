@@ -51,6 +51,42 @@ impl Given {
     }
 }
 
+impl Given {
+    /// Returns `Pass::choose`, for a shader with candidates.
+    pub fn quote_choose(&self, targets: &Targets) -> TokenStream {
+        let Given {
+            used,
+            parameters,
+            pairs,
+            options,
+            ..
+        } = self;
+        let (target_ty, target) = (&targets.ty, &targets.given);
+        quote! {
+            impl Pass {
+                /// Compiles the candidate that is fastest on this device: by `choices`, or else by timing all with these
+                /// inputs and targets, which takes seconds and is remembered in `choices`.
+                ///
+                /// # Errors
+                ///
+                /// Those of `bind`, and if the device can run none of them or is lost.
+                pub fn choose(
+                    device: (&wgpu::Device, &wgpu::Queue),
+                    choices: &mut straightline_runtime::Choices,
+                    pass_options: &straightline_runtime::PassOptions,
+                    #used,
+                    #parameters
+                    #target_ty
+                ) -> Result<Self, Error> {
+                    #pairs
+                    let bind = |pass: &straightline_runtime::Pass| pass.bind_with(&inputs, #target, &#options);
+                    choices.choose(device, &CANDIDATES, pass_options, bind).map(|chosen| Self(chosen.pass))
+                }
+            }
+        }
+    }
+}
+
 /// Returns the bindings of a kernel that runs as a pass.
 pub fn quote_pass(manifest: &Manifest, given: &Given, targets: &Targets) -> TokenStream {
     let Given {
