@@ -12,7 +12,7 @@ mod paragraph;
 mod scene;
 
 use args::{Arguments, Command};
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use failure::Failure;
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -32,7 +32,11 @@ fn main() -> ExitCode {
 }
 
 fn run_command(arguments: Arguments) -> Result<(), Failure> {
-    match arguments.command.unwrap_or_else(|| Command::Demo(Default::default())) {
+    let Some(command) = arguments.command.or_else(command_of_a_checkout) else {
+        out!("{}", Arguments::command().render_help());
+        return Ok(());
+    };
+    match command {
         Command::Demo(args) => commands::demo::run_demo(&args),
         Command::List(args) => commands::list::print_list(&args),
         Command::Emit(args) => commands::emit::emit_kernel(&args),
@@ -74,6 +78,11 @@ fn run_command(arguments: Arguments) -> Result<(), Failure> {
         Command::Man(args) => commands::shell::write_manual(&args),
         Command::Adapters(args) => commands::adapters::print_adapters(&args),
     }
+}
+
+/// Returns the command of a bare `cargo run`, for which cargo sets variables: the demo.
+fn command_of_a_checkout() -> Option<Command> {
+    std::env::var_os("CARGO_MANIFEST_DIR").map(|_| Command::Demo(Default::default()))
 }
 
 /// Prints the requested help, or the usage error.

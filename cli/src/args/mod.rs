@@ -53,8 +53,8 @@ pub use tune::TuneArgs;
 
 /// Image filters written once, as ordinary Rust with ordinary loops, emitted as straight-line shaders.
 ///
-/// Without a command it runs `demo`: emits the default shaders, renders a scene, antialiases it, writes pictures and
-/// prints what each method costs and how close it comes.
+/// Begin with `demo`: it emits shaders, renders a scene, antialiases it, writes pictures and prints what each method
+/// costs and how close it comes.
 #[derive(Debug, Parser)]
 #[command(name = "straightline", version, max_term_width = 110)]
 #[cfg_attr(not(feature = "study"), command(after_help = absent::ABOUT))]
@@ -329,7 +329,7 @@ pub struct DemoArgs {
     /// Model to render instead of a built-in scene: .gltf, .glb or .obj
     #[arg(long, value_name = "FILE", conflicts_with = "scene")]
     pub mesh: Option<PathBuf>,
-    /// Repetitions of the timing; each runs every shader once, in turn
+    /// Repetitions of the timing, each of which runs every pass once, in turn; fewer if they take longer than 10 seconds
     #[arg(long, value_name = "N", default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rounds: u32,
     /// Print only the table, adapter and driver, as JSON

@@ -207,26 +207,15 @@ fn folders_that_cannot_be_written_are_found_out_first() {
 #[test]
 fn a_set_is_whole_or_not_there() {
     let folder = scratch("half-a-set");
-    let out = folder.join("demo");
-    std::fs::create_dir_all(out.join("detail.png")).unwrap();
-    fails(
-        &[
-            "demo",
-            "--size",
-            "32x18",
-            "--rounds",
-            "1",
-            "--out",
-            out.to_str().unwrap(),
-        ],
-        1,
-        &["detail.png"],
-    );
+    let out = folder.join("shaders");
+    std::fs::create_dir_all(out.join("stalker.wgsl")).unwrap();
+    let emit = ["emit", "stalker", "--target", "glsl450,wgsl", "--out"];
+    fails(&[&emit[..], &[out.to_str().unwrap()]].concat(), 1, &["stalker.wgsl"]);
     let left: Vec<_> = std::fs::read_dir(&out)
         .unwrap()
         .map(|e| e.unwrap().file_name())
         .collect();
-    assert_eq!(left, ["detail.png"]);
+    assert_eq!(left, ["stalker.wgsl"]);
 }
 
 fn interrupt(child: &std::process::Child) {

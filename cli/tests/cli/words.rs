@@ -77,6 +77,18 @@ fn the_list_fits_a_screen_and_has_everything() {
 }
 
 #[test]
+fn a_bare_call_outside_of_cargo_prints_help() {
+    let mut bare = std::process::Command::new(env!("CARGO_BIN_EXE_straightline"));
+    let output = bare.env_remove("CARGO_MANIFEST_DIR").output().expect("the binary runs");
+    assert!(output.status.success());
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        text.contains("Usage: straightline") && text.contains("  demo "),
+        "{text}"
+    );
+}
+
+#[test]
 fn every_command_has_a_line_and_a_page() {
     let folder = scratch("man");
     let out = folder.join("man");
