@@ -32,8 +32,6 @@ enum Entry {
     Function,
     /// A test.
     Test(Arc<Test>),
-    /// A pass of a chain, whose options have these values.
-    Pass(Arc<(String, OptionValues)>),
     /// The options of a chain, without its passes.
     ChainOptions,
 }
@@ -106,12 +104,15 @@ impl Kernel {
         }
     }
 
-    /// Makes a kernel of the pass `entry` of a chain, whose options have these values.
-    pub(crate) fn from_pass(files: &Arc<Vec<File>>, chain: &str, options: &OptionValues, entry: &str) -> Kernel {
-        Kernel {
-            entry: Entry::Pass(Arc::new((chain.to_owned(), options.clone()))),
-            ..Kernel::of_chain(files, entry)
-        }
+    /// Makes a kernel of the pass `entry` of a chain, which was lowered.
+    ///
+    /// # Errors
+    ///
+    /// As [`Kernel::typed_library`].
+    pub(crate) fn from_pass(files: &Arc<Vec<File>>, entry: &str, parsed: Parsed) -> Result<Kernel, Errors> {
+        let kernel = Kernel::of_chain(files, entry);
+        kernel.type_library(parsed)?;
+        Ok(kernel)
     }
 
     /// Makes a kernel that has nothing but the options of a chain.
@@ -308,9 +309,13 @@ impl Kernel {
         let parsed = match &self.entry {
             Entry::Function => front::parse(files, name)?,
             Entry::Test(test) => front::testing::parse_test(files, test)?,
-            Entry::Pass(of) => chain::parse_pass(files, &of.0, &of.1, name)?,
             Entry::ChainOptions => chain::parse_options(files, name)?,
         };
+        self.type_library(parsed)
+    }
+
+    /// Infers the types of lowered items, and keeps them.
+    fn type_library(&self, parsed: Parsed) -> Result<Arc<Library>, Errors> {
         let Parsed {
             mut library,
             reached,

@@ -12,30 +12,29 @@ use crate::pipeline::{Start, first_sentence};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors, File};
-use straightline_evaluator::front::chain::{self as front, Chain, Source};
+use straightline_evaluator::front::chain::{self as front, Chain, ReadChain, Source};
 use straightline_evaluator::ir::Texture;
 use straightline_evaluator::passes::{self, Drawn};
-use straightline_kernels::OptionValues;
 use straightline_manifest::Format;
 use straightline_manifest::chain::SizeRule;
 
 /// Compiles the kernels of a chain's passes.
 pub(super) fn compile_passes(
     files: &Arc<Vec<File>>,
-    chain: Chain,
-    options: &OptionValues,
+    read: ReadChain,
     spec: &ChainSpec,
 ) -> Result<CompiledChain, Errors> {
+    let chain = &read.chain;
     let compiler = Compiler {
         files,
-        chain: &chain,
-        options,
+        read: &read,
+        chain,
         spec,
     };
     let starts = compiler.evaluate_all()?;
     let sized = compiler.input_textures(&starts);
     let decision =
-        fusion::decide(&chain, &starts, &sized, &spec.fuse).map_err(|error| Errors::new(vec![*error], files))?;
+        fusion::decide(chain, &starts, &sized, &spec.fuse).map_err(|error| Errors::new(vec![*error], files))?;
     let planned = compiler.plan_passes(&starts, &decision, &sized)?;
     let planned = compiler.share_passes(planned, &starts, &sized)?;
     let kernels = compiler.compile_all(&planned.passes)?;
@@ -81,10 +80,10 @@ pub(super) fn compile_passes(
             .collect(),
         results: chain.results.iter().map(|index| moved(*index)).collect(),
         pictures: stored.iter().map(|index| chain.pictures[*index].clone()).collect(),
-        name: chain.name,
+        name: chain.name.clone(),
         changed: Vec::new(),
         summary: first_sentence(&chain.docs),
-        inputs: chain.inputs,
+        inputs: chain.inputs.clone(),
         passes,
         kernels,
         spec: spec.clone(),
@@ -95,14 +94,14 @@ pub(super) fn compile_passes(
 
 struct Compiler<'c> {
     files: &'c Arc<Vec<File>>,
+    read: &'c ReadChain,
     chain: &'c Chain,
-    options: &'c OptionValues,
     spec: &'c ChainSpec,
 }
 
 impl Compiler<'_> {
-    fn kernel(&self, entry: &str) -> Kernel {
-        Kernel::from_pass(self.files, &self.chain.name, self.options, entry)
+    fn kernel(&self, entry: &str) -> Result<Kernel, Errors> {
+        Kernel::from_pass(self.files, entry, self.read.parse_pass(entry)?)
     }
 
     /// Description of the shaders of a kernel: one without options takes no settings of them.
@@ -126,7 +125,8 @@ impl Compiler<'_> {
         let mut starts = BTreeMap::new();
         for pass in &self.chain.passes {
             if !starts.contains_key(&pass.entry) && !failures.entries.contains(&pass.entry) {
-                match self.kernel(&pass.entry).evaluate(&self.settings(&pass.entry)) {
+                let evaluate = |kernel: Kernel| kernel.evaluate(&self.settings(&pass.entry));
+                match self.kernel(&pass.entry).and_then(evaluate) {
                     Ok(start) => {
                         starts.insert(pass.entry.clone(), start);
                     }
@@ -362,8 +362,8 @@ impl Compiler<'_> {
                 start.graph = passes::frame_textures(&start.graph, &|name| framed.contains(name));
                 Ok(start)
             };
-            let kernel = self.kernel(&pass.entry);
-            match kernel.compile_changed(&self.settings(&pass.entry), &mut |_, _| {}, &change) {
+            let compile = |kernel: Kernel| kernel.compile_changed(&self.settings(&pass.entry), &mut |_, _| {}, &change);
+            match self.kernel(&pass.entry).and_then(compile) {
                 Ok(mut compiled) => {
                     compiled.kernel.clone_from(&pass.kernel);
                     kernels.insert(pass.kernel.clone(), compiled);

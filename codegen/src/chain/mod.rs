@@ -158,13 +158,15 @@ impl Chain {
     pub fn compile(&self, spec: &ChainSpec) -> Result<CompiledChain, Errors> {
         let texts = spec.shader.settings.option_texts();
         let options = self.option_values(&texts)?;
-        let read = |options: &OptionValues| deep(|| front::read_chain(&self.files, &self.name, options));
-        let chain = read(&options).map_err(|errors| {
-            overridden::name_overrides(&texts, &options, errors, &|texts| {
-                read(&self.option_values(&texts)?).map(drop)
-            })
+        let read = |options: &OptionValues| front::read_chain(&self.files, &self.name, options);
+        let mut compiled = deep(|| {
+            let chain = read(&options).map_err(|errors| {
+                overridden::name_overrides(&texts, &options, errors, &|texts| {
+                    read(&self.option_values(&texts)?).map(drop)
+                })
+            })?;
+            compiler::compile_passes(&self.files, chain, spec)
         })?;
-        let mut compiled = compiler::compile_passes(&self.files, chain, &options, spec)?;
         compiled.changed = self.changed_options(&texts)?;
         Ok(compiled)
     }

@@ -88,29 +88,57 @@ pub enum Source {
     Picture(usize),
 }
 
+/// A chain with the syntax of its files, of which each pass is lowered.
+pub struct ReadChain {
+    /// The chain.
+    pub chain: Chain,
+    files: Arc<Vec<File>>,
+    /// Syntax of the files; functions that draw are empty.
+    syntax: Vec<(u32, syn::File)>,
+    /// Kernels of the passes, each once.
+    kernels: Vec<syn::ItemFn>,
+}
+
 /// Reads the chain `name` with these values of its options.
 ///
 /// # Errors
 ///
 /// A file that is not Rust, and every statement of the function that no chain has.
-pub fn read_chain(files: &Arc<Vec<File>>, name: &str, options: &OptionValues) -> Result<Chain, Errors> {
-    let syntax = read_hoisted(files)?;
-    let walked = walk::walk_chain(&syntax, name, options);
-    walked
-        .map(|walked| walked.chain)
-        .map_err(|found| Errors::new(found, files))
+pub fn read_chain(files: &Arc<Vec<File>>, name: &str, options: &OptionValues) -> Result<ReadChain, Errors> {
+    let mut syntax = read_hoisted(files)?;
+    let walked = walk::walk_chain(&syntax, name, options).map_err(|found| Errors::new(found, files))?;
+    // Every pass copies the syntax, and none needs these.
+    for item in syntax.iter_mut().flat_map(|(_, file)| &mut file.items) {
+        if let syn::Item::Fn(function) = item
+            && signature::returns_pictures(&function.sig)
+        {
+            function.block.stmts.clear();
+        }
+    }
+    Ok(ReadChain {
+        chain: walked.chain,
+        files: Arc::clone(files),
+        syntax,
+        kernels: walked.kernels,
+    })
 }
 
-/// Reads all files and lowers what a pass reaches, by the name of its kernel.
-///
-/// # Errors
-///
-/// As of [`read_chain`] and [`parse`](super::parse).
-pub fn parse_pass(files: &Arc<Vec<File>>, chain: &str, options: &OptionValues, entry: &str) -> Result<Parsed, Errors> {
-    let syntax = read_hoisted(files)?;
-    let walked = walk::walk_chain(&syntax, chain, options).map_err(|found| Errors::new(found, files))?;
-    let kernel = walked.kernels.into_iter().find(|kernel| kernel.sig.ident == entry);
-    lower_in_place(files, syntax, chain, kernel, entry)
+impl ReadChain {
+    /// Lowers what a pass reaches, by the name of its kernel.
+    ///
+    /// # Errors
+    ///
+    /// As of [`parse`](super::parse).
+    pub fn parse_pass(&self, entry: &str) -> Result<Parsed, Errors> {
+        let kernel = self.kernels.iter().find(|kernel| kernel.sig.ident == entry);
+        lower_in_place(
+            &self.files,
+            self.syntax.clone(),
+            &self.chain.name,
+            kernel.cloned(),
+            entry,
+        )
+    }
 }
 
 /// Reads all files and lowers a kernel that has nothing but the options of a chain, so that they can be described.
