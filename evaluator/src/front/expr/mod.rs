@@ -1,17 +1,24 @@
 //! Expressions and statements.
 
+mod generics;
+mod ranges;
+
 use super::choice::has_let;
 use super::name::Name;
 use super::names::Names;
 use super::parts::takes_apart;
 use super::targets::{BreakKind, BreakTarget};
 use super::token_span;
-use super::tree::{Block, Bounds, Expr, ExprKind, ForLoop, Generic, Pattern, Statement, Type};
+use super::tree::{Expr, ExprKind, ForLoop, Generic, Type};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::ir::{BinaryOp, UnaryOp};
 use std::collections::HashMap;
 use std::rc::Rc;
 use syn::spanned::Spanned;
+
+use generics::with_trait;
+pub use generics::{held_by_none, names_instance};
+use ranges::{open_start, range_in_brackets};
 
 /// Deepest nesting of expressions.
 pub const DEPTH: u32 = 128;
@@ -310,44 +317,6 @@ impl Lower {
         }
     }
 
-    /// `power::<3>` as a value: a closure that calls it.
-    fn lower_instance(&mut self, e: &syn::ExprPath) -> ExprKind {
-        let last = e.path.segments.last().map(|last| last.ident.to_string());
-        let Some(count) = last.and_then(|last| self.names().arity(&last)) else {
-            let instead = "write a closure that calls it: `|x| power::<3>(x)`";
-            self.note_unsupported(e.span(), "a method with generic arguments as a value", instead);
-            return ExprKind::Tuple(Vec::new());
-        };
-        let params: Vec<syn::Ident> = (0..count)
-            .map(|k| quote::format_ident!("x{k}", span = e.span()))
-            .collect();
-        let closure = quote::quote_spanned!(e.span()=> |#(#params),*| #e(#(#params),*));
-        match syn::parse2(closure) {
-            Ok(closure) => self.lower_closure(&closure),
-            Err(_) => ExprKind::Tuple(Vec::new()),
-        }
-    }
-
-    /// `for k in start.. { .. }`: a `loop` that counts.
-    fn lower_open_for(&mut self, e: &syn::ExprForLoop, start: &syn::Expr) -> ExprKind {
-        let (attrs, label, pattern, body) = (&e.attrs, &e.label, &e.pat, &e.body.stmts);
-        let next = quote::format_ident!("__next", span = e.expr.span());
-        let block = quote::quote! {{
-            let mut #next = #start;
-            #(#attrs)* #label loop { let #pattern = #next; #next += 1; #(#body)* }
-        }};
-        match syn::parse2(block) {
-            Ok(block) => ExprKind::Block(self.lower_block(&block)),
-            Err(_) => ExprKind::Tuple(Vec::new()),
-        }
-    }
-
-    /// `None::<T>`: a `None` where its type is stated.
-    fn typed_none(&mut self, held: Type, at: proc_macro2::Span) -> ExprKind {
-        let none = ExprKind::Path(vec!["Option".to_owned(), "None".to_owned()]);
-        self.typed(none, Type::Name("Option".to_owned(), vec![held]), at)
-    }
-
     fn refuse_expr(&mut self, expr: &syn::Expr) -> ExprKind {
         let (what, instead) = match expr {
             syn::Expr::Let(_) => (
@@ -441,102 +410,6 @@ impl Lower {
         }
     }
 
-    /// The type before the last segment of a path, if it has arguments: `Window::<3>::new`, `<Window<3> as Trait>::new`.
-    fn owner_argument(&mut self, path: &syn::ExprPath) -> Option<Expr> {
-        let mut owner = path.path.clone();
-        owner.segments.pop();
-        owner.segments.pop_punct();
-        let ty = match &path.qself {
-            Some(own) => match self.lower_type(&own.ty) {
-                ty if has_arguments(&ty) => ty,
-                _ => return None,
-            },
-            None => self.stated_type(&owner).or_else(|| self.generic_self(&owner))?,
-        };
-        let span = self.token_span(owner.span());
-        let unit = Box::new(Expr {
-            kind: ExprKind::Tuple(Vec::new()),
-            span,
-        });
-        Some(Expr {
-            kind: ExprKind::Cast(unit, ty),
-            span,
-        })
-    }
-
-    /// A constant of a type that has arguments, or of a trait that is named.
-    fn owned_constant(&mut self, path: &syn::ExprPath) -> Option<ExprKind> {
-        let last = path.path.segments.last()?;
-        if last.ident.to_string().contains(char::is_lowercase) || !last.arguments.is_none() {
-            return None;
-        }
-        let owner = self.owner_argument(path);
-        let called = with_trait(path, self.of_type(path)?);
-        let is_owned = owner.is_some() || called.len() == 3;
-        is_owned.then(|| ExprKind::Call(called, owner.into_iter().collect(), Vec::new()))
-    }
-
-    /// `Self` with the generic parameters of its `impl`.
-    fn generic_self(&self, path: &syn::Path) -> Option<Type> {
-        let own = self.self_type().filter(|_| path.is_ident("Self"))?.peel_refs();
-        has_arguments(own).then(|| own.clone())
-    }
-
-    /// Generic arguments in `::<>`, in order; a type counts as `()`.
-    fn generic_arguments(&mut self, path: &syn::Path) -> Vec<Expr> {
-        let Some(syn::PathArguments::AngleBracketed(list)) = path.segments.last().map(|s| &s.arguments) else {
-            return Vec::new();
-        };
-        self.listed_arguments(list)
-    }
-
-    fn listed_arguments(&mut self, list: &syn::AngleBracketedGenericArguments) -> Vec<Expr> {
-        let mut constants = Vec::new();
-        for arg in &list.args {
-            let kind = match arg {
-                syn::GenericArgument::Const(e) => self.lower_expr(e).kind,
-                syn::GenericArgument::Type(syn::Type::Infer(_)) => ExprKind::Path(vec![INFERRED.to_owned()]),
-                syn::GenericArgument::Type(ty) => self.type_argument(ty),
-                // Lifetimes have no parameter to bind; the others are refused before.
-                _ => continue,
-            };
-            let span = self.token_span(arg.span());
-            constants.push(Expr { kind, span });
-        }
-        constants
-    }
-
-    /// A type in `::<>`, written as what has it: a name, which may be a constant's, `[T; n]` or `(A, B)`.
-    fn type_argument(&mut self, ty: &syn::Type) -> ExprKind {
-        match ty {
-            syn::Type::Path(t) => {
-                let path = self.path_segments(&t.path);
-                let own = t.path.is_ident("Self").then(|| self.self_type().cloned()).flatten();
-                match self.stated_type(&t.path).or(own) {
-                    Some(ty) if path.len() == 1 && has_arguments(&ty) => {
-                        let span = self.token_span(t.span());
-                        let kind = ExprKind::Path(path);
-                        ExprKind::Cast(Box::new(Expr { kind, span }), ty)
-                    }
-                    _ => ExprKind::Path(path),
-                }
-            }
-            syn::Type::Array(t) => {
-                let kind = self.type_argument(&t.elem);
-                let span = self.token_span(t.elem.span());
-                ExprKind::Repeat(Box::new(Expr { kind, span }), self.boxed(&t.len))
-            }
-            syn::Type::Tuple(t) => {
-                let parts = t.elems.iter().map(|part| Expr {
-                    kind: self.type_argument(part),
-                    span: self.token_span(part.span()),
-                });
-                ExprKind::Tuple(parts.collect())
-            }
-            _ => ExprKind::Tuple(Vec::new()),
-        }
-    }
-
     fn lower_struct(&mut self, e: &syn::ExprStruct) -> ExprKind {
         let path = self.path_segments(&e.path);
         let mut fields = Vec::new();
@@ -549,83 +422,6 @@ impl Lower {
             None => made,
         }
     }
-
-    /// The type that a path with generic arguments names: `Window::<3>`.
-    fn stated_type(&mut self, path: &syn::Path) -> Option<Type> {
-        let last = path.segments.last()?;
-        if last.arguments.is_none() {
-            // Another name of a type that has arguments.
-            let named = self.aliased_type(&path.get_ident()?.to_string())?;
-            return has_arguments(&named).then_some(named);
-        }
-        Some(self.lower_type(&syn::Type::Path(syn::TypePath {
-            attrs: Vec::new(),
-            qself: None,
-            path: path.clone(),
-        })))
-    }
-
-    /// A value where its type is stated.
-    fn typed(&mut self, value: ExprKind, ty: Type, at: proc_macro2::Span) -> ExprKind {
-        let span = self.token_span(at);
-        let name = "#typed";
-        ExprKind::Block(Block {
-            statements: vec![Statement::Let(
-                Pattern::Name(name.into(), false, span),
-                Some(ty),
-                Some(Expr { kind: value, span }),
-                span,
-            )],
-            value: Some(Box::new(self.path_expr(vec![name.to_owned()], at))),
-            exact: false,
-        })
-    }
-
-    /// The ends of a slice; as an index alone a range may lack an end.
-    fn lower_bounds(&mut self, range: &syn::ExprRange) -> Bounds {
-        let mut end = |of: &Option<Box<syn::Expr>>| of.as_ref().map(|end| self.boxed(end));
-        Bounds {
-            start: end(&range.start),
-            end: end(&range.end),
-            inclusive: matches!(range.limits, syn::RangeLimits::Closed(_)),
-        }
-    }
-
-    fn lower_range(&mut self, e: &syn::ExprRange) -> ExprKind {
-        match (&e.start, &e.end) {
-            (Some(start), Some(end)) => {
-                let inclusive = matches!(e.limits, syn::RangeLimits::Closed(_));
-                ExprKind::Range(self.boxed(start), self.boxed(end), inclusive)
-            }
-            (Some(start), None) => ExprKind::Call(vec![COUNTED.to_owned()], Vec::new(), vec![self.lower_expr(start)]),
-            _ => {
-                self.note_unsupported(e.span(), "a range without a start", "write both ends: `0..n`");
-                ExprKind::Tuple(Vec::new())
-            }
-        }
-    }
-}
-
-/// The range that an index is, in parentheses or not.
-fn range_in_brackets(index: &syn::Expr) -> Option<&syn::ExprRange> {
-    match index {
-        syn::Expr::Range(range) => Some(range),
-        syn::Expr::Paren(inner) => range_in_brackets(&inner.expr),
-        syn::Expr::Group(inner) => range_in_brackets(&inner.expr),
-        _ => None,
-    }
-}
-
-/// Returns whether a path is a function with generic arguments: `power::<3>`.
-pub fn names_instance(path: &syn::Path) -> bool {
-    let last = path.segments.last();
-    last.is_some_and(|last| !last.arguments.is_none() && last.ident.to_string().starts_with(char::is_lowercase))
-}
-
-/// Start of a range without an end, in parentheses or not.
-fn open_start(over: &syn::Expr) -> Option<&syn::Expr> {
-    let range = range_in_brackets(over)?;
-    range.start.as_deref().filter(|_| range.end.is_none())
 }
 
 /// Name of the sequence `start..`, which no kernel can write.
@@ -637,23 +433,6 @@ pub const INFERRED: &str = "_";
 /// Returns whether a call by a name of one word makes a structure: `Window::<3>(x)`, but not `Some::<f32>(x)`.
 fn is_made(name: &str) -> bool {
     name.starts_with(char::is_uppercase) && !matches!(name, "Some" | "Ok" | "Err")
-}
-
-/// The type in `None::<T>` and `Option::<T>::None`.
-pub fn held_by_none(path: &syn::Path) -> Option<&syn::Type> {
-    let last = path.segments.last().filter(|last| last.ident == "None")?;
-    let of = path.segments.iter().rev().nth(1).filter(|of| of.ident == "Option");
-    let arguments = [Some(last), of]
-        .into_iter()
-        .flatten()
-        .find_map(|segment| match &segment.arguments {
-            syn::PathArguments::AngleBracketed(list) => Some(list),
-            _ => None,
-        })?;
-    match arguments.args.first() {
-        Some(syn::GenericArgument::Type(ty)) if arguments.args.len() == 1 => Some(ty),
-        _ => None,
-    }
 }
 
 /// The name of a field, or its number.
@@ -684,23 +463,4 @@ fn is_assignment(op: &syn::BinOp) -> bool {
             | B::ShlAssign(_)
             | B::ShrAssign(_)
     )
-}
-
-fn has_arguments(ty: &Type) -> bool {
-    match ty {
-        Type::Name(_, args) | Type::Tuple(args) => !args.is_empty(),
-        other => matches!(other, Type::Array(..)),
-    }
-}
-
-/// Adds the trait to a call of `<Type as Trait>::name`, unless it is one of Rust's.
-fn with_trait(path: &syn::ExprPath, called: Vec<String>) -> Vec<String> {
-    let position = path.qself.as_ref().map_or(0, |own| own.position);
-    let of = position.checked_sub(1).and_then(|last| path.path.segments.get(last));
-    match (of, called.as_slice()) {
-        (Some(of), [ty, name]) if !super::rust_traits::is_of_rust(&of.ident.to_string()) && !ty.contains("::") => {
-            vec![ty.clone(), of.ident.to_string(), name.clone()]
-        }
-        _ => called,
-    }
 }

@@ -1,6 +1,8 @@
 //! Items of a kernel's files.
 
-use super::Parsed;
+mod reached;
+mod signature;
+
 use super::cfg::is_test;
 use super::check::Check;
 use super::expr::Lower;
@@ -12,8 +14,7 @@ use super::tree::{Enum, EnumVariant, Fields, Function, Generic, Param, Struct, T
 use crate::diagnostic::{Code, Diagnostic};
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
-use rustc_hash::FxHashSet;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::rc::Rc;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
@@ -310,93 +311,6 @@ impl Items {
         self.library.functions.insert(key.to_owned(), function);
     }
 
-    /// A function, and what is wrong with it.
-    pub(super) fn lower_function(
-        &self,
-        file: u32,
-        sig: &syn::Signature,
-        body: &syn::Block,
-        attrs: &[syn::Attribute],
-        of: Option<&Owner>,
-    ) -> (Function, Vec<Diagnostic>) {
-        let mut lower = match of {
-            Some(of) => self.lower_within(file, of),
-            None => self.lower_of(file),
-        };
-        lower.called_parameters(&sig.generics);
-        let (mut params, mut parts) = (Vec::new(), Vec::new());
-        // Evaluation is on values, so a type parameter is whatever comes; constants are bound by name.
-        let mut generics = lower.lower_generics(&sig.generics);
-        let mut bounds = lower.trait_bounds(&sig.generics);
-        for input in &sig.inputs {
-            match input {
-                syn::FnArg::Receiver(receiver) => {
-                    params.push(Param {
-                        name: "self".into(),
-                        ty: receiver_type(&mut lower, receiver),
-                        mutable: receiver.mutability.is_some(),
-                        span: lower.token_span(receiver.span()),
-                    });
-                }
-                syn::FnArg::Typed(typed) => {
-                    lower.in_parameters = true;
-                    let ty = lower.lower_type(&typed.ty);
-                    lower.in_parameters = false;
-                    match &*typed.pat {
-                        syn::Pat::Ident(p) => params.push(Param {
-                            name: p.ident.to_string().into(),
-                            ty,
-                            mutable: p.mutability.is_some(),
-                            span: lower.token_span(p.span()),
-                        }),
-                        other => {
-                            let (param, taken) = lower.pattern_parameter(other, ty, params.len());
-                            params.push(param);
-                            parts.push(taken);
-                        }
-                    }
-                }
-            }
-        }
-        for (name, traits) in std::mem::take(&mut lower.anonymous) {
-            generics.push(Generic::Type(name.clone()));
-            bounds.insert(name, traits);
-        }
-        if let Some(of) = of {
-            generics.extend(of.generics.iter().cloned());
-            bounds.extend(of.bounds.clone());
-        }
-        let result = match &sig.output {
-            syn::ReturnType::Default => Type::Tuple(Vec::new()),
-            syn::ReturnType::Type(_, ty) => lower.lower_type(ty),
-        };
-        let span = lower.token_span(sig.ident.span());
-        let mut body = super::parts::prepend_statements(parts, lower.lower_block(body), span);
-        body.exact = lower.exact_attribute(attrs);
-        if lower.half_attribute(attrs) {
-            lower.half.push(sig.ident.to_string());
-        }
-        let conversions = generics.iter().filter_map(|generic| {
-            let ty = lower.functions.get(&super::closure::conversion_of(generic.name()))?;
-            Some((generic.name().to_owned(), ty.clone()))
-        });
-        let function = Function {
-            conversions: conversions.collect(),
-            default_of: None,
-            docs: doc_text(attrs),
-            half: std::mem::take(&mut lower.half),
-            unroll: lower.unroll_of_function(attrs),
-            generics,
-            of: of.map(|of| of.ty.clone()),
-            bounds,
-            params,
-            result,
-            body,
-            span,
-        };
-        (function, lower.errors)
-    }
-
     /// A `static`, which is a constant where nothing changes it.
     fn add_static(&mut self, file: u32, item: &mut syn::ItemStatic, mut check: Check) {
         if let syn::StaticMutability::Mut(token) = &item.mutability {
@@ -556,109 +470,6 @@ impl Items {
         .label("second definition")
         .help("modules and functions are not told apart: give it another name");
         self.note_errors_of(name, vec![error]);
-    }
-
-    /// Lowers the items that `entry` needs, and collects the errors in them.
-    ///
-    /// # Errors
-    ///
-    /// Items that are defined twice, and types that hold themselves, with all other errors.
-    pub fn lower_reached(mut self, entry: &str) -> Result<Parsed, Vec<Diagnostic>> {
-        self.lower(entry, false)
-    }
-
-    /// As [`Items::lower_reached`], with the library's functions that the other items of the files need.
-    pub fn lower_whole(mut self, entry: &str) -> Result<Parsed, Vec<Diagnostic>> {
-        self.lower(entry, true)
-    }
-
-    fn lower(&mut self, entry: &str, whole: bool) -> Result<Parsed, Vec<Diagnostic>> {
-        self.implement_all();
-        // A method of a type itself goes before one of a trait.
-        for (name, errors) in std::mem::take(&mut self.of_traits) {
-            if !self.library.functions.contains_key(&name) {
-                self.note_errors_of(&name, errors);
-            }
-        }
-        let mut doubtful_names = FxHashSet::default();
-        let foreign = self.imports.iter().filter_map(Import::foreign_name);
-        let elsewhere = foreign.map(str::to_owned).collect();
-        for import in std::mem::take(&mut self.imports) {
-            doubtful_names.extend(import.unknown_name(&self.library).map(str::to_owned));
-            if let Some((name, error)) = import.missing_error(&self.library, &elsewhere) {
-                self.note_errors_of(&name, vec![error]);
-            }
-        }
-        let reached = self.mentions.reached_items(self.errors.keys(), entry);
-        let mut errors = Vec::new();
-        for name in &reached {
-            errors.extend(self.errors.get(name).into_iter().flatten().cloned());
-        }
-        if whole {
-            let others = self
-                .implementation_errors
-                .drain(..)
-                .filter(|error| !errors.contains(error));
-            let others: Vec<Diagnostic> = others.collect();
-            errors.extend(others);
-        }
-        let mut contradictions = std::mem::take(&mut self.duplicates);
-        contradictions.extend(super::recursive::check_recursive_types(&self.library));
-        if !contradictions.is_empty() {
-            contradictions.extend(errors);
-            return Err(contradictions);
-        }
-        let is_broken = |name: &String| self.errors.get(name).is_some_and(|errors| !errors.is_empty());
-        let (broken, types): (Vec<&String>, Vec<&String>) = reached
-            .iter()
-            .filter(|name| is_broken(name))
-            .partition(|name| self.library.functions.contains_key(*name) || self.library.consts.contains_key(*name));
-        self.library.broken = broken.into_iter().cloned().collect();
-        let doubtful = |name: &String| is_broken(name) || self.mentions.mentions_any(name, &types);
-        let sound = reached.iter().filter(|name| !doubtful(name)).cloned().collect();
-        let std_file = super::std::FILE;
-        let written = |name: &&String| self.errors.get(*name).is_none_or(Vec::is_empty) && !reached.contains(*name);
-        let functions = self.library.functions.iter();
-        let functions = functions.filter(|(_, function)| function.span.file != std_file);
-        let consts = self.library.consts.iter();
-        let consts = consts.filter(|(_, constant)| constant.value.span.file != std_file);
-        let own = functions.map(|(name, _)| name).chain(consts.map(|(name, _)| name));
-        let others: BTreeSet<String> = own.filter(written).cloned().collect();
-        let mut needed = reached.clone();
-        if whole {
-            for name in &others {
-                needed.extend(self.mentions.reached_items(self.errors.keys(), name));
-            }
-            doubtful_names.extend(self.errors.keys().filter(|name| is_broken(name)).cloned());
-        }
-        let mut library = std::mem::take(&mut self.library);
-        library
-            .functions
-            .retain(|name, function| function.span.file != std_file || needed.contains(name));
-        if whole {
-            library.broken = doubtful_names;
-        }
-        Ok(Parsed {
-            library,
-            reached: sound,
-            others,
-            unknown_names: self.unknown_names,
-            errors,
-        })
-    }
-}
-
-/// The type of `self`, `&self`, `&mut self` or `self: T`.
-fn receiver_type(lower: &mut Lower, receiver: &syn::Receiver) -> Type {
-    let own = lower.self_type().cloned().unwrap_or(Type::Tuple(Vec::new()));
-    match &receiver.kind {
-        syn::ReceiverKind::Value => own,
-        syn::ReceiverKind::Reference(_, _, mutability) => Type::Ref(mutability.is_some(), Box::new(own)),
-        syn::ReceiverKind::Typed(_, ty) => lower.lower_type(ty),
-        _ => {
-            lower.note_unsupported(receiver.span(), "this receiver", "take `self`, `&self` or `&mut self`");
-            own
-        }
     }
 }
 
