@@ -192,13 +192,13 @@ fn collect_items(syntax: &mut [(u32, syn::File)]) -> items::Items {
 
 /// Adds what the library has of the names that `files` mention.
 fn add_library(items: &mut items::Items, files: &[File]) -> Result<(), Errors> {
-    match syn::parse_file(&std::text(files)) {
-        Ok(mut parsed) => {
-            items.add_file(std::FILE, &mut parsed);
-            Ok(())
-        }
-        Err(error) => Err(Errors::from_diagnostic(syntax_error(std::FILE, "", &error))),
-    }
+    items.add_file(std::FILE, &mut read_library(files)?);
+    Ok(())
+}
+
+/// Reads the functions of the library that `files` may call.
+fn read_library(files: &[File]) -> Result<syn::File, Errors> {
+    syn::parse_file(&std::text(files)).map_err(|error| Errors::from_diagnostic(syntax_error(std::FILE, "", &error)))
 }
 
 /// The text with blanks for a byte order mark and a first line `#!/...`, so that what follows stays in its place.

@@ -20,7 +20,7 @@ mod value;
 mod values;
 mod walk;
 
-use super::{Parsed, add_library, collect_items, inner, purposes, read_syntax, token_span};
+use super::{Parsed, collect_items, inner, purposes, read_library, read_syntax, std, token_span};
 use crate::diagnostic::{Code, Diagnostic, Errors, File, Span};
 use ::std::sync::Arc;
 use straightline_kernels::OptionValues;
@@ -95,6 +95,8 @@ pub struct ReadChain {
     files: Arc<Vec<File>>,
     /// Syntax of the files; functions that draw are empty.
     syntax: Vec<(u32, syn::File)>,
+    /// Functions of the library that the files may call.
+    library: syn::File,
     /// Kernels of the passes, each once.
     kernels: Vec<syn::ItemFn>,
 }
@@ -119,6 +121,7 @@ pub fn read_chain(files: &Arc<Vec<File>>, name: &str, options: &OptionValues) ->
         chain: walked.chain,
         files: Arc::clone(files),
         syntax,
+        library: read_library(files)?,
         kernels: walked.kernels,
     })
 }
@@ -131,13 +134,8 @@ impl ReadChain {
     /// As of [`parse`](super::parse).
     pub fn parse_pass(&self, entry: &str) -> Result<Parsed, Errors> {
         let kernel = self.kernels.iter().find(|kernel| kernel.sig.ident == entry);
-        lower_in_place(
-            &self.files,
-            self.syntax.clone(),
-            &self.chain.name,
-            kernel.cloned(),
-            entry,
-        )
+        let syntax = (self.syntax.clone(), self.library.clone());
+        lower_in_place(&self.files, syntax, &self.chain.name, kernel.cloned(), entry)
     }
 }
 
@@ -149,7 +147,7 @@ impl ReadChain {
 pub fn parse_options(files: &Arc<Vec<File>>, chain: &str) -> Result<Parsed, Errors> {
     let syntax = read_hoisted(files)?;
     let stub = read::find_function(&syntax, chain).map(|(_, function)| item::options_only(function));
-    lower_in_place(files, syntax, chain, stub, chain)
+    lower_in_place(files, (syntax, read_library(files)?), chain, stub, chain)
 }
 
 /// Reads the syntax of all files. Items inside of functions, which passes need too, stand outside.
@@ -161,10 +159,10 @@ fn read_hoisted(files: &Arc<Vec<File>>) -> Result<Vec<(u32, syn::File)>, Errors>
     Ok(syntax)
 }
 
-/// Lowers `kernel`, which stands in the files in place of the chain.
+/// Lowers `kernel`, which stands in the files in place of the chain, with the library.
 fn lower_in_place(
     files: &Arc<Vec<File>>,
-    mut syntax: Vec<(u32, syn::File)>,
+    (mut syntax, mut library): (Vec<(u32, syn::File)>, syn::File),
     chain: &str,
     kernel: Option<syn::ItemFn>,
     entry: &str,
@@ -189,7 +187,7 @@ fn lower_in_place(
         });
     }
     let mut items = collect_items(&mut syntax);
-    add_library(&mut items, files)?;
+    items.add_file(std::FILE, &mut library);
     let lowered = items.lower_reached(entry);
     let mut parsed = lowered.map_err(|found| Errors::new(found, files))?;
     parsed.library.purposes = purposes::function_purposes(&parsed.library);
