@@ -146,7 +146,9 @@ impl<'l> Checker<'l> {
                     Ty::Int(_) => self.of_integer(receiver, name, args, span),
                     _ => self.of_float(name, args),
                 };
-                if found == Ty::Unknown {
+                // Of integers of 8 and 16 bits it is said already.
+                let is_narrow = matches!(receiver, Ty::Int(kind) if kind.narrow_bits().is_some());
+                if found == Ty::Unknown && !is_narrow {
                     self.no_method(receiver, name, args.len(), span);
                 }
                 found
