@@ -1,7 +1,8 @@
 //! Search for cancelling terms of one sum, difference or comparison.
 
-use super::terms::{Choice, Definition, Dependence, Place, Rounding, Term, WeightedTerm};
-use crate::ir::{BinaryOp, Graph, NodeId, Op};
+use super::interned::{Part, Parts, TermId, Terms};
+use super::terms::{Choice, Dependence, Place, Rounding, Term, WeightedTerm};
+use crate::ir::{BinaryOp, NodeId, Op};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -42,7 +43,9 @@ pub struct ExactSearch {
 /// - a large constant that rounds a value.
 ///
 /// In other sums, such as `(a + b) - (a - b)`, reordering changes only a rounding.
-pub fn find_cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found: &mut ExactSearch) {
+pub fn find_cancelling(terms: &mut Terms<'_>, id: NodeId, found: &mut ExactSearch) {
+    terms.limit();
+    let (graph, dependence) = (terms.graph, terms.dependence);
     let node = graph.node(id);
     let sign = match &node.op {
         Op::Binary(BinaryOp::Add) => 1.0,
@@ -55,7 +58,7 @@ pub fn find_cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found
     if !of.is_float() || of.is_array() {
         return;
     }
-    let search = |lane: u8, found: &mut ExactSearch| {
+    let mut search = |lane: u8, found: &mut ExactSearch| {
         let side = |k: usize, times: f64| WeightedTerm {
             term: dependence.component_term(node.args[k], lane),
             times,
@@ -71,9 +74,10 @@ pub fn find_cancelling(graph: &Graph, dependence: &Dependence, id: NodeId, found
         if !may_share_terms(dependence, &sides) {
             return Outcome::Nothing;
         }
+        let interned = |side: Vec<WeightedTerm>| side.into_iter().map(|part| terms.intern(part)).collect();
+        let sides: Vec<Vec<Part>> = sides.into_iter().map(interned).collect();
         let mut search = Search {
-            graph,
-            dependence,
+            terms: &mut *terms,
             sides,
             choices: Vec::new(),
             left: MAX_COMBINATIONS,
@@ -134,15 +138,14 @@ fn intersect(a: [u64; 4], b: [u64; 4]) -> bool {
     (0..4).any(|k| a[k] & b[k] != 0)
 }
 
-struct Search<'g> {
-    graph: &'g Graph,
-    dependence: &'g Dependence,
-    sides: Vec<Vec<WeightedTerm>>,
+struct Search<'s, 'g> {
+    terms: &'s mut Terms<'g>,
+    sides: Vec<Vec<Part>>,
     /// Alternatives followed: the first, the second, or neither.
     choices: Vec<(Choice, usize)>,
     /// Number of combinations that may still be examined.
     left: u32,
-    found: &'g mut ExactSearch,
+    found: &'s mut ExactSearch,
     outcome: Outcome,
     /// `true` if nothing remains of the sum without rounding.
     is_error: bool,
@@ -190,8 +193,8 @@ impl Share {
 /// Terms that a sum is made of, with their edges.
 #[derive(Default)]
 struct Cone {
-    terms: Vec<Term>,
-    index: FxHashMap<Term, usize>,
+    terms: Vec<TermId>,
+    index: FxHashMap<TermId, usize>,
     /// Edges to the parts of terms, those of one term after the other.
     edges: Vec<Edge>,
     /// By term, the range of its edges.
@@ -201,12 +204,12 @@ struct Cone {
 }
 
 impl Cone {
-    fn add(&mut self, term: Term) -> (usize, bool) {
+    fn add(&mut self, term: TermId) -> (usize, bool) {
         if let Some(known) = self.index.get(&term) {
             return (*known, false);
         }
         let k = self.terms.len();
-        self.index.insert(term.clone(), k);
+        self.index.insert(term, k);
         self.terms.push(term);
         self.spans.push(0..0);
         (k, true)
@@ -254,36 +257,37 @@ impl Cone {
     }
 }
 
-impl Search<'_> {
+impl Search<'_, '_> {
     /// Returns whether the shorter side may share a term with the other. Nodes created after the other side cannot be terms
     /// of it, unless a loop carries them there. Most terms of a long sum are such nodes and need no second look.
-    fn may_share(&self) -> bool {
+    fn may_share(&mut self) -> bool {
         let [left, right] = &self.sides[..] else { return true };
-        if self.dependence.has_loops() {
+        if self.terms.dependence.has_loops() {
             return true;
         }
-        let newest = |side: &[WeightedTerm]| side.iter().filter_map(|part| part.term.newest_node()).max();
-        let (short, bound) = match newest(left) > newest(right) {
-            true => (left, newest(right)),
-            false => (right, newest(left)),
+        let newest = |side: &[Part]| {
+            side.iter()
+                .filter_map(|part| self.terms.term(part.term).newest_node())
+                .max()
         };
-        let mut seen: FxHashSet<Term> = short.iter().map(|part| part.term.clone()).collect();
-        let mut pending: Vec<Term> = seen.iter().cloned().collect();
+        let (newest_left, newest_right) = (newest(left), newest(right));
+        let (short, bound) = match newest_left > newest_right {
+            true => (left, newest_right),
+            false => (right, newest_left),
+        };
+        let mut seen: FxHashSet<TermId> = short.iter().map(|part| part.term).collect();
+        let mut pending: Vec<TermId> = seen.iter().copied().collect();
         while let Some(term) = pending.pop() {
-            if term.newest_node() <= bound || seen.len() > FEW_TERMS {
+            if self.terms.term(term).newest_node() <= bound || seen.len() > FEW_TERMS {
                 return true;
             }
-            let parts = match self.dependence.term_definition(self.graph, &term) {
-                Definition::Leaf => continue,
-                Definition::ByLane => return true,
-                Definition::Sum(parts) => parts,
-                Definition::Either(_, parts) => parts.into(),
+            let parts = match self.terms.parts(term) {
+                Parts::Leaf => continue,
+                Parts::ByLane => return true,
+                Parts::Sum(parts) => &parts[..],
+                Parts::Either(_, parts) => parts,
             };
-            let new = parts
-                .into_iter()
-                .map(|part| part.term)
-                .filter(|term| seen.insert(term.clone()));
-            pending.extend(new.collect::<Vec<Term>>());
+            pending.extend(parts.iter().map(|part| part.term).filter(|term| seen.insert(*term)));
         }
         false
     }
@@ -321,7 +325,7 @@ impl Search<'_> {
         for side in &self.sides {
             let mut parts = Vec::new();
             for part in side {
-                let (k, is_new) = cone.add(part.term.clone());
+                let (k, is_new) = cone.add(part.term);
                 parts.push((k, part.times, part.by));
                 if is_new {
                     queue.push_back(k);
@@ -335,24 +339,21 @@ impl Search<'_> {
                 cone.is_cut = true;
                 break;
             }
-            let parts = match self.dependence.term_definition(self.graph, &cone.terms[k]) {
-                Definition::Leaf => continue,
-                Definition::ByLane => {
+            let parts = match self.terms.parts(cone.terms[k]) {
+                Parts::Leaf => continue,
+                Parts::ByLane => {
                     self.outcome = Outcome::ByLane;
                     break;
                 }
-                Definition::Sum(parts) => parts,
-                Definition::Either(choice, [first, second]) => {
-                    match self.choices.iter().find(|(known, _)| *known == choice) {
-                        Some((_, 0)) => vec![first],
-                        Some((_, 1)) => vec![second],
-                        Some(_) => continue,
-                        None => {
-                            pending.get_or_insert(choice);
-                            continue;
-                        }
+                Parts::Sum(parts) => &parts[..],
+                Parts::Either(choice, sides) => match self.choices.iter().find(|(known, _)| known == choice) {
+                    Some((_, side @ (0 | 1))) => &sides[*side..=*side],
+                    Some(_) => continue,
+                    None => {
+                        pending.get_or_insert(*choice);
+                        continue;
                     }
-                }
+                },
             };
             let first = cone.edges.len();
             for part in parts {
@@ -383,10 +384,10 @@ impl Search<'_> {
         for k in cone.dependency_order(roots.iter().flatten().map(|(k, ..)| *k)) {
             let share = shares[k];
             // All constants are examined together.
-            if share.is_cancelled() && !self.is_constant(&cone.terms[k]) {
+            if share.is_cancelled() && !self.is_constant(cone.terms[k]) {
                 // A value minus itself loses nothing, nor do the values that it is made of.
-                if share.sides().count() > 1 && (share.rounded || self.is_contractible(&cone.terms[k])) {
-                    cancelled.push((k, order_matters(&cone.terms[k], &share)));
+                if share.sides().count() > 1 && (share.rounded || self.is_contractible(cone.terms[k])) {
+                    cancelled.push((k, order_matters(self.terms.term(cone.terms[k]), &share)));
                 }
                 continue;
             }
@@ -407,42 +408,44 @@ impl Search<'_> {
         let mut seen = FxHashSet::default();
         for (k, _) in cancelled.into_iter().filter(|(_, matters)| *matters || is_error) {
             self.outcome = Outcome::Cancels;
-            self.mark_product(&cone.terms[k]);
+            self.mark_product(cone.terms[k]);
             let mut stack = vec![k];
             while let Some(at) = stack.pop() {
                 for user in &users[at] {
                     if seen.insert(*user) {
                         stack.push(*user);
-                        self.mark_term(&cone.terms[*user]);
+                        self.mark_term(cone.terms[*user]);
                     }
                 }
             }
         }
     }
 
-    fn mark_term(&mut self, term: &Term) {
-        if let Some(place) = term.place
-            && self.graph.node(place.node).op.is_rounding()
+    fn mark_term(&mut self, term: TermId) {
+        if let Some(place) = self.terms.term(term).place
+            && self.terms.graph.node(place.node).op.is_rounding()
         {
             self.found.marks.insert(place.node);
         }
     }
 
     /// Marks a product that cancels itself, because a contraction would leave its rounding error.
-    fn mark_product(&mut self, term: &Term) {
+    fn mark_product(&mut self, term: TermId) {
         if self.is_contractible(term) {
             self.mark_term(term);
         }
     }
 
-    fn is_constant(&self, term: &Term) -> bool {
-        term.place
-            .is_some_and(|place| self.graph.constant_bits(place.node).is_some())
+    fn is_constant(&self, term: TermId) -> bool {
+        let place = self.terms.term(term).place;
+        place.is_some_and(|place| self.terms.graph.constant_bits(place.node).is_some())
     }
 
     /// Returns whether a term is a product that may be contracted with the sum that uses it.
-    fn is_contractible(&self, term: &Term) -> bool {
-        let is_product = |place: Place| matches!(self.graph.node(place.node).op, Op::Binary(BinaryOp::Mul) | Op::Dot);
+    fn is_contractible(&self, term: TermId) -> bool {
+        let graph = self.terms.graph;
+        let is_product = |place: Place| matches!(graph.node(place.node).op, Op::Binary(BinaryOp::Mul) | Op::Dot);
+        let term = self.terms.term(term);
         term.factors.is_empty() && term.place.is_some_and(is_product)
     }
 }

@@ -9,10 +9,12 @@
 //! File tests: `evaluator/tests/filetests/passes/exactness`.
 
 mod cone;
+mod interned;
 mod terms;
 
 use crate::ir::{BinaryOp, Builder, Graph, NodeId, Op, Origin, Rebuild, Replace, UnaryOp, rebuild_replacing};
 use crate::passes::Exact;
+use interned::Terms;
 use rustc_hash::{FxHashMap, FxHashSet};
 use terms::Dependence;
 
@@ -43,8 +45,9 @@ pub fn exact_places(graph: &Graph) -> Vec<&Origin> {
 fn find_exact_ops(graph: &Graph) -> FxHashSet<NodeId> {
     let dependence = Dependence::from_graph(graph);
     let mut found = cone::ExactSearch::default();
+    let mut terms = Terms::new(graph, &dependence);
     for id in graph.node_ids() {
-        cone::find_cancelling(graph, &dependence, id, &mut found);
+        cone::find_cancelling(&mut terms, id, &mut found);
     }
     let mut ordered = found.marks;
     ordered.extend(made_of(graph, &dependence, found.errors));
