@@ -16,6 +16,7 @@ mod half;
 #[cfg(feature = "native")]
 pub mod normals;
 mod options;
+pub mod pictures;
 #[cfg(feature = "native")]
 pub mod prelude;
 mod presets;

@@ -14,3 +14,6 @@ pub use text::{case_text, float_text};
 
 /// The source of `testing/close.rs`: tolerances and comparisons in the kernel language.
 pub const CLOSE: &str = include_str!("../testing/close.rs");
+
+/// The source of `testing/color.rs`: results of kernels as colours, in the kernel language.
+pub const COLOR: &str = include_str!("../testing/color.rs");

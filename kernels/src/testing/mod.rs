@@ -17,17 +17,25 @@
 //! ```
 //!
 //! The cases are the same here and in shaders, and the same each time: edges first, then random values.
+//!
+//! With the feature `pictures`, `assert_picture` compares what a kernel draws with a golden file, a PNG.
 
 mod close;
+mod color;
 mod domain;
 mod panics;
+#[cfg(feature = "pictures")]
+mod picture;
 mod property;
 mod value;
 
 use std::fmt::Debug;
 
 pub use close::{Close, Tolerance, absolute, relative, ulp};
+pub use color::Color;
 pub use domain::{Domain, Domains, any, every_float, unit};
+#[cfg(feature = "pictures")]
+pub use picture::{FromTexel, assert_picture, exactly, psnr, read_linear, read_picture};
 pub use property::{Property, for_all, for_all_in};
 pub use value::{Bits, Value};
 

@@ -1,6 +1,7 @@
 //! Animated PNG files.
 
-use super::{PictureError, check_size, png as still};
+use super::srgb::to_srgb8;
+use super::{PictureError, check_size};
 use ::png::{BitDepth, ColorType, Encoder, EncodingError};
 use glam::Vec4;
 use std::io;
@@ -36,7 +37,7 @@ pub fn encode_animation(frames: &[Frame<Vec4>], milliseconds: u16) -> Result<Vec
         let texels: Vec<u8> = frame
             .texels()
             .iter()
-            .flat_map(|texel| still::to_srgb8(*texel))
+            .flat_map(|texel| to_srgb8(texel.to_array()))
             .collect();
         writer.write_image_data(&texels).map_err(failure)?;
     }

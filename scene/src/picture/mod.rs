@@ -10,7 +10,6 @@ pub(crate) mod exr;
 pub(crate) mod layout;
 mod lut;
 mod png;
-pub mod srgb;
 
 use glam::{UVec2, UVec4, Vec4};
 use std::path::Path;
@@ -21,6 +20,7 @@ pub use animation::encode_animation;
 pub use error::PictureError;
 pub use layout::{compare_details, compose_montage, enlarge_detail, find_busiest_square};
 pub use lut::{read_cube, slice_strip};
+pub use straightline_kernels::pictures::srgb;
 
 /// Widest and tallest picture that is read or written, in pixels.
 pub const MAX_SIDE: u32 = 16_384;

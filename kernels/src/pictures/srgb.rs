@@ -18,6 +18,21 @@ pub fn from_linear(light: f32) -> f32 {
     }
 }
 
+/// Bytes of a texel of linear RGB and alpha, in sRGB; alpha stays linear. Clamped to 0..=1; NaN becomes 0.
+pub fn to_srgb8(texel: [f32; 4]) -> [u8; 4] {
+    // A cast from float to integer saturates, and takes NaN to 0.
+    let byte = |value: f32| (value * 255.0).round() as u8;
+    let color = |light: f32| byte(from_linear(light.clamp(0.0, 1.0)));
+    let [r, g, b, a] = texel;
+    [color(r), color(g), color(b), byte(a)]
+}
+
+/// Linear texel of one in sRGB whose components are 0 to 1.
+pub fn from_srgb(texel: [f32; 4]) -> [f32; 4] {
+    let [r, g, b, a] = texel;
+    [to_linear(r), to_linear(g), to_linear(b), a]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
