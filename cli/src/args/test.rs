@@ -25,6 +25,9 @@ pub struct TestArgs {
     /// Run by the interpreter alone
     #[arg(long, conflicts_with = "adapter")]
     pub without_gpu: bool,
+    /// Write the golden files of pictures from what the interpreter draws
+    #[arg(long)]
+    pub bless: bool,
     /// Print JSON, one object a line, as the test programs of Rust do
     #[arg(long)]
     pub json: bool,

@@ -19,6 +19,7 @@ mod gpu;
 mod knobs;
 mod output;
 mod page;
+mod pictures;
 mod precision;
 mod run;
 mod sources;

@@ -32,7 +32,7 @@ impl Default for Plan {
     }
 }
 
-/// Runs a test by the interpreter in `f32`, then by `device`, and in `f64` by the interpreter.
+/// Runs a test without a picture by the interpreter in `f32`, then by `device`, and in `f64` by the interpreter.
 pub fn check_test(kernel: &TestKernel, plan: &Plan, device: Option<&mut dyn Runner>) -> Verdict {
     let arguments: Vec<Argument> = kernel.test.arguments.iter().map(|(_, argument)| *argument).collect();
     let cases = match arguments.is_empty() {
@@ -55,7 +55,7 @@ pub fn check_test(kernel: &TestKernel, plan: &Plan, device: Option<&mut dyn Runn
     for runner in &mut runners {
         match runner.run_cases(kernel, &cases) {
             Ok(found) => outcomes.push(found),
-            Err(error) => return Verdict::Failed(Box::new(not_run(kernel, &error))),
+            Err(error) => return Verdict::Failed(Box::new(report_not_run(kernel, &error))),
         }
     }
     let held = outcomes[0].iter().filter(|outcome| **outcome == Outcome::Held).count();
@@ -116,11 +116,15 @@ fn minimise(
     })
 }
 
-fn not_run(kernel: &TestKernel, error: &RunnerError) -> Failure {
+/// Reports a test that could not be run.
+pub fn report_not_run(kernel: &TestKernel, error: &RunnerError) -> Failure {
     let what = format!("`{}` could not be run: {error}", kernel.test.path);
     match error {
         RunnerError::Limit(_) => {
-            let help = "let its loops end sooner, or give it fewer cases: `--cases 16`";
+            let help = match kernel.test.picture {
+                Some(_) => "let its loops end sooner, or draw a smaller picture",
+                None => "let its loops end sooner, or give it fewer cases: `--cases 16`",
+            };
             unplaced(kernel, Code::Limit, what, "this test", help)
         }
         RunnerError::Failed(_) => {
@@ -143,13 +147,7 @@ fn unplaced(kernel: &TestKernel, code: Code, what: String, label: &str, help: &s
     let error = Diagnostic::error_at(code, kernel.test.span, what)
         .label(label)
         .help(help);
-    Failure {
-        errors: Errors::new(vec![error], &kernel.files),
-        runner: None,
-        inputs: Vec::new(),
-        values: [None, None],
-        ulps: None,
-    }
+    Failure::from_errors(Errors::new(vec![error], &kernel.files))
 }
 
 /// The interpreter.

@@ -6,7 +6,7 @@ use crate::spec::Settings;
 use std::path::Path;
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Errors, File};
-use straightline_evaluator::front::testing::{Site, Test, list_tests};
+use straightline_evaluator::front::testing::{Site, Test, TestPicture, list_tests};
 
 /// A kernel's file with its tests.
 #[derive(Clone, Debug)]
@@ -78,6 +78,16 @@ impl TestFile {
     /// If no kernel can be made of the test, or as of [`Kernel::compile`].
     pub fn compile(&self, test: &Test) -> Result<TestKernel, Errors> {
         self.compile_with(test, &Settings::default())
+    }
+
+    /// Compiles the kernel of another picture of a test, one that the test reads.
+    ///
+    /// # Errors
+    ///
+    /// As of [`TestFile::compile`].
+    pub fn compile_picture(&self, test: &Test, picture: &TestPicture, settings: &Settings) -> Result<TestKernel, Errors> {
+        let picture = Some(picture.clone());
+        self.compile_with(&Test { picture, ..test.clone() }, settings)
     }
 
     /// As [`TestFile::compile`], with settings.

@@ -2,7 +2,7 @@
 //!
 //! A `#[test]` in the file becomes a compute kernel whose invocations run one case each. [`TestFile`] finds the tests,
 //! [`TestFile::compile`] makes the kernel of one, and [`check_test`] runs it: by the interpreter in `f32` and `f64`, and by
-//! any other [`Runner`], such as a GPU.
+//! any other [`Runner`], such as a GPU. A test that draws a picture runs by [`interpret_picture`]; the caller compares it.
 //!
 //! ```
 //! use straightline_codegen::testing::{Plan, TestFile, Verdict, check_test};
@@ -33,15 +33,17 @@ mod buffers;
 mod check;
 mod file;
 mod outcome;
+mod picture;
 mod report;
 mod run;
 mod verdict;
 
 pub use buffers::Buffers;
-pub use check::{Plan, check_test};
+pub use check::{Plan, check_test, report_not_run};
 pub use file::{TestFile, TestKernel};
 pub use outcome::{Outcome, Recording, Violation};
+pub use picture::{Painted, interpret_picture, pixel_inputs, report_pixel};
 pub use run::{Runner, RunnerError, interpret_cases};
-pub use straightline_evaluator::front::testing::{Site, SiteKind, Test};
+pub use straightline_evaluator::front::testing::{ImageSource, Site, SiteKind, Test, TestImage, TestPicture};
 pub use straightline_kernels::properties::{CASES, Case, SEED};
 pub use verdict::{Failure, Passed, Verdict};

@@ -34,6 +34,7 @@ pub fn report_failure(failing: &Failing<'_>) -> Failure {
         inputs: failing.inputs(),
         values: [text(0), text(1)],
         ulps: violation.and_then(ulps_of),
+        psnr: None,
     }
 }
 
@@ -103,7 +104,7 @@ impl Failing<'_> {
 }
 
 /// The values of a failed assertion in a sentence.
-fn label_of(site: &Site, violation: &Violation) -> String {
+pub(super) fn label_of(site: &Site, violation: &Violation) -> String {
     let values: Vec<String> = site
         .values
         .iter()

@@ -27,10 +27,26 @@ pub struct Failure {
     pub errors: Errors,
     /// The runner on which it fails; `None` if it could not be run.
     pub runner: Option<String>,
-    /// The minimised arguments, as Rust statements.
+    /// The minimised arguments, or the pixel, as Rust statements.
     pub inputs: Vec<String>,
     /// The assertion's values, left and right, as Rust text.
     pub values: [Option<String>; 2],
     /// Their distance in units of the last place.
     pub ulps: Option<u32>,
+    /// Ratio of peak signal to noise of a picture that differs, in decibels.
+    pub psnr: Option<f64>,
+}
+
+impl Failure {
+    /// A test that could not be run, or fails without values.
+    pub fn from_errors(errors: Errors) -> Failure {
+        Failure {
+            errors,
+            runner: None,
+            inputs: Vec::new(),
+            values: [None, None],
+            ulps: None,
+            psnr: None,
+        }
+    }
 }

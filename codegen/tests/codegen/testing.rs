@@ -2,9 +2,10 @@
 
 use std::time::{Duration, Instant};
 use straightline_codegen::diagnostic::{Code, Errors};
-use straightline_codegen::spec::EmitOptions;
+use straightline_codegen::spec::{EmitOptions, Settings};
+use straightline_codegen::Stage;
 use straightline_codegen::testing::{
-    Case, Failure, Outcome, Plan, Runner, RunnerError, TestFile, TestKernel, Verdict, check_test, interpret_cases,
+    Case, Failure, ImageSource, Outcome, Plan, Runner, RunnerError, TestFile, TestKernel, Verdict, check_test, interpret_cases,
 };
 
 /// A file with a kernel's functions and one test of this body.
@@ -340,4 +341,67 @@ fn a_failure_in_f64_alone_is_a_note() {
         "{text}"
     );
     assert!(text.contains("interpreter, f32: all assertions hold"), "{text}");
+}
+
+#[test]
+fn pictures_that_no_shader_can_draw_are_refused_with_their_place() {
+    let picture = |before: &str, rest: &str| format!("{before}assert_picture({rest});");
+    let of = "uvec2(4, 4), |pixel| pixel.x as f32, psnr(50.0)";
+    let cases = [
+        (picture("", &format!("\"../a.png\", {of}")), "a picture of this name", "leads out of the folder"),
+        (picture("", &format!("\"a.exr\", {of}")), "a picture of this name", "no `.png`"),
+        (picture("let name = \"a.png\";", &format!("name, {of}")), "not written out", "write `\"golden.png\"`"),
+        (picture("", "\"a.png\", uvec2(4, 0), |pixel| 1.0, exactly()"), "a picture of this size", "1 to 4096"),
+        (picture("", "\"a.png\", size(), |pixel| 1.0, exactly()"), "a size that is not written out", "let size"),
+        (picture("", "\"a.png\", uvec2(4, 4), |pixel| 1.0, ulp(2)"), "such a tolerance", "psnr(50.0)"),
+        (picture("", "\"a.png\", uvec2(4, 4), shade, exactly()"), "no closure", "|pixel|"),
+        (picture("let a = read_picture(\"a.png\");", &format!("\"b.png\", {of}")), "without a type", "Texture<Vec4>"),
+        (
+            picture("", "\"a.png\", uvec2(4, 4), |pixel| read(&Sampler::default()), exactly()"),
+            "`Sampler` here",
+            "let linear = Sampler::default();",
+        ),
+        (format!("for k in 0..2 {{ assert_picture(\"a.png\", {of}); }}"), "`assert_picture` here", "a statement of the test"),
+        (
+            format!("assert_picture(\"a.png\", {of}); assert_picture(\"b.png\", {of});"),
+            "a second picture",
+            "a test of its own",
+        ),
+        (
+            format!("for_all(|x: f32| assert!(x == x)); assert_picture(\"a.png\", {of});"),
+            "a property and a picture",
+            "a test of its own",
+        ),
+    ];
+    for (body, what, help) in cases {
+        let errors = compile(&file_with("", &body)).expect_err(&body);
+        let text = errors.render(false);
+        assert!(text.contains(what) && text.contains(help), "{body}:\n{text}");
+        assert!(text.contains("kernel.rs:"), "{text}");
+    }
+}
+
+#[test]
+fn pictures_are_valid_shaders_of_every_stage() {
+    let body = "let size = uvec2(8, 8); let image: Texture<Vec3> = read_picture(\"a.png\"); let linear = Sampler::default();\n        \
+                let grey: Texture<f32> = draw(size, |at| image.load(at).x);\n        \
+                assert_picture(\"b.png\", size, |at| grey.sample(&linear, at.as_vec2() / 8.0) * vec3(1.0, 0.5, 0.25), exactly());";
+    let text = file_with("", body);
+    let file = TestFile::from_text("kernel.rs", &text).unwrap_or_else(|errors| panic!("{}", errors.render(false)));
+    let picture = file.tests[0].picture.clone().expect("a picture");
+    let names: Vec<&str> = picture.images.iter().map(|image| image.name.as_str()).collect();
+    assert_eq!(names, ["image", "grey"]);
+    let ImageSource::Drawn(grey) = &picture.images[1].source else {
+        panic!("it is drawn");
+    };
+    for kernel in [
+        file.compile(&file.tests[0]),
+        file.compile_picture(&file.tests[0], grey, &Settings::default()),
+    ] {
+        let kernel = kernel.unwrap_or_else(|errors| panic!("{}", errors.render(false)));
+        for stage in [Stage::Compute, Stage::Fragment] {
+            let emitted = kernel.compiled.emit(&EmitOptions::default().stage(stage));
+            emitted.unwrap_or_else(|errors| panic!("{}", errors.render(false)));
+        }
+    }
 }

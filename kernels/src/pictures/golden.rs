@@ -84,7 +84,7 @@ pub fn read_drawn(path: &Path, data: bool) -> Result<Drawn, String> {
 pub fn compare_with_file(golden: &Path, drawn: &Drawn, likeness: Likeness, bless: bool) -> Result<(), Mismatch> {
     let expected = match read_stored(golden) {
         Ok(stored) => Ok(stored),
-        Err(ReadError::Missing) => Err(Mismatch::Missing(golden.to_owned())),
+        Err(ReadError::Missing(path)) => Err(Mismatch::Missing(path)),
         Err(error) => Err(Mismatch::Unusable(error.to_string())),
     };
     let found = expected.and_then(|stored| {
@@ -131,14 +131,14 @@ fn mark_difference(own: &[[u8; 4]], golden: &[[u8; 4]]) -> Vec<[u8; 4]> {
 }
 
 enum ReadError {
-    Missing,
+    Missing(PathBuf),
     Other(String),
 }
 
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            ReadError::Missing => f.write_str("there is no such file"),
+            ReadError::Missing(path) => write!(f, "there is no picture `{}`", path.display()),
             ReadError::Other(text) => f.write_str(text),
         }
     }
@@ -153,7 +153,7 @@ fn read_stored(path: &Path) -> Result<Stored, ReadError> {
         )),
     };
     Stored::read(path, MAX_BYTES, check).map_err(|error| match error {
-        super::png::PngError::Io(error) if error.kind() == io::ErrorKind::NotFound => ReadError::Missing,
+        super::png::PngError::Io(error) if error.kind() == io::ErrorKind::NotFound => ReadError::Missing(path.to_owned()),
         error => ReadError::Other(format!("cannot read `{}`: {error}", path.display())),
     })
 }

@@ -2,12 +2,14 @@
 
 mod device;
 mod junit;
+mod picture;
 mod print;
 
 use crate::args::TestArgs;
 use crate::failure::{Failure, format_count};
 use crate::gpu::{Gpu, INSTALL};
 use device::DeviceRunner;
+use picture::PictureTest;
 use print::Printer;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -128,7 +130,8 @@ fn run_test(args: &TestArgs, file: &TestFile, test: &Test, gpu: Option<&Gpu>) ->
     if test.ignored {
         return End::Ignored;
     }
-    let kernel = match file.compile_with(test, &args.options.settings()) {
+    let settings = args.options.settings();
+    let kernel = match file.compile_with(test, &settings) {
         Ok(kernel) => kernel,
         Err(errors) => return End::Refused(errors),
     };
@@ -138,6 +141,16 @@ fn run_test(args: &TestArgs, file: &TestFile, test: &Test, gpu: Option<&Gpu>) ->
         ..Plan::default()
     };
     let mut device = gpu.map(DeviceRunner::new);
+    if let Some(picture) = &test.picture {
+        let drawing = PictureTest {
+            file,
+            kernel: &kernel,
+            settings: &settings,
+            path: &args.file,
+            bless: args.bless,
+        };
+        return drawing.run(picture, device.as_mut());
+    }
     let device = device.as_mut().map(|device| device as &mut dyn Runner);
     match check_test(&kernel, &plan, device) {
         Verdict::Passed(passed) => End::Passed { note: passed.note },

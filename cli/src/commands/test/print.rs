@@ -118,6 +118,7 @@ fn end_json(done: &Done<'_>) -> Value {
         value["left"] = json!(failure.values[0]);
         value["right"] = json!(failure.values[1]);
         value["ulps"] = json!(failure.ulps);
+        value["psnr"] = json!(failure.psnr);
     }
     value
 }

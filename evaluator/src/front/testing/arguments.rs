@@ -157,7 +157,7 @@ fn range_of(range: &syn::Expr) -> Option<Range> {
 }
 
 /// The number of a literal, as an `f32` has it if it is a float.
-fn number_of(expr: &syn::Expr) -> Option<f64> {
+pub fn number_of(expr: &syn::Expr) -> Option<f64> {
     match expr {
         syn::Expr::Lit(literal) => match &literal.lit {
             syn::Lit::Float(number) => number.base10_parse::<f32>().ok().map(f64::from),

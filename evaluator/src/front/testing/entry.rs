@@ -1,6 +1,7 @@
 //! The function of a test as a kernel.
 
 use super::arguments::{read_arguments, unsupported};
+use super::picture::{draws_picture, kernel_of_picture, read_test_picture};
 use super::{CASES, FLOATS, STATE, Test, WORDS};
 use crate::diagnostic::Diagnostic;
 use crate::front::token_span;
@@ -73,11 +74,23 @@ fn describe_test(file: u32, path: &str, function: &syn::ItemFn) -> Test {
         Ok(found) => arguments = found,
         Err(error) => errors.push(*error),
     }
+    let mut picture = None;
+    if draws_picture(function) {
+        match read_test_picture(file, function) {
+            Ok(found) => picture = Some(found),
+            Err(error) => errors.push(*error),
+        }
+        if !arguments.is_empty() {
+            let help = "write a test of its own for each";
+            errors.push(*unsupported(file, &function.sig.ident, "a property and a picture in a test", help));
+        }
+    }
     Test {
         path: path.to_owned(),
         entry: function.sig.ident.to_string(),
         span: token_span(file, function.sig.ident.span()),
         arguments,
+        picture,
         ignored: has_attribute(&function.attrs, "ignore"),
         errors,
     }
@@ -182,25 +195,32 @@ fn become_kernel(function: &mut syn::ItemFn, test: &Test) {
             quote_spanned!(at=> let straightline_case = #cases.load((pixel.y * resolution.x as i32 + pixel.x) as usize);),
         ),
     };
-    // A kernel writes something, also if all assertions are decided already.
-    let mut statements = quote_spanned!(at=> #state.max(0, 0u32); #load);
-    for statement in &function.block.stmts {
-        match property_call(statement) {
-            Some(call) => statements.extend(property_of_case(call, &test.arguments)),
-            None => statement.to_tokens(&mut statements),
+    let [resources, statements, result] = match &test.picture {
+        Some(picture) => kernel_of_picture(function, picture),
+        None => {
+            // A kernel writes something, also if all assertions are decided already.
+            let mut statements = quote_spanned!(at=> #state.max(0, 0u32); #load);
+            for statement in &function.block.stmts {
+                match property_call(statement) {
+                    Some(call) => statements.extend(property_of_case(call, &test.arguments)),
+                    None => statement.to_tokens(&mut statements),
+                }
+            }
+            [TokenStream::new(), statements, TokenStream::new()]
         }
-    }
+    };
     let attrs = &function.attrs;
     let kernel = quote_spanned!(at=>
         #(#attrs)*
         pub fn #entry(
             #given
+            #resources
             #state: &AtomicBuffer<u32>,
             #floats: &StorageBuffer<Vec4>,
             #words: &StorageBuffer<UVec4>,
             resolution: UVec2,
             pixel: IVec2,
-        ) { #statements }
+        ) #result { #statements }
     );
     // The tokens between are those of statements that were parsed.
     if let Ok(kernel) = syn::parse2(kernel) {

@@ -1,4 +1,4 @@
-//! Tests of a kernel's file: each `#[test]` becomes a kernel whose invocations run one case each.
+//! Tests of a kernel's file: each `#[test]` becomes a kernel whose invocations run one case, or draw one pixel, each.
 //!
 //! The text of the file stays: its tokens keep their places, so that errors and failures name them. In the file,
 //! assertions become calls of [`RECORD`], which the evaluator turns into writes to buffers of the test's kernel.
@@ -6,15 +6,17 @@
 mod arguments;
 mod assertions;
 mod entry;
+mod picture;
 mod recorded;
 
 pub use assertions::{Site, SiteKind};
+pub use picture::{ImageSource, TestImage, TestPicture};
 pub use recorded::{Kind, Recorded};
 
 use super::{Parsed, add_library, collect_items, purposes, read_syntax, std, syntax_error};
 use crate::diagnostic::{Diagnostic, Errors, File, Span};
 use ::std::sync::Arc;
-use straightline_kernels::properties::{Argument, CLOSE};
+use straightline_kernels::properties::{Argument, CLOSE, COLOR};
 
 /// Function that records an assertion: its site, its condition and its values.
 pub const RECORD: &str = "straightline_record";
@@ -54,6 +56,8 @@ pub struct Test {
     pub span: Span,
     /// Arguments of its property by name; empty without `for_all`.
     pub arguments: Vec<(String, Argument)>,
+    /// Picture that it draws; `None` without `assert_picture`.
+    pub picture: Option<TestPicture>,
     /// `true` if it has the attribute `ignore`.
     pub ignored: bool,
     /// Reasons why no kernel can be made of it.
@@ -94,15 +98,17 @@ pub fn parse_test(files: &Arc<Vec<File>>, test: &Test) -> Result<Parsed, Errors>
         syntax.push((file, parsed));
     }
     let mut items = collect_items(&mut syntax);
-    let close = File {
-        path: String::new(),
-        text: CLOSE.to_owned(),
-    };
-    match syn::parse_file(CLOSE) {
-        Ok(mut parsed) => items.add_file(std::FILE, &mut parsed),
-        Err(error) => return Err(Errors::from_diagnostic(syntax_error(std::FILE, "", &error))),
+    let mut mentioned: Vec<File> = files.to_vec();
+    for text in [CLOSE, COLOR] {
+        match syn::parse_file(text) {
+            Ok(mut parsed) => items.add_file(std::FILE, &mut parsed),
+            Err(error) => return Err(Errors::from_diagnostic(syntax_error(std::FILE, "", &error))),
+        }
+        mentioned.push(File {
+            path: String::new(),
+            text: text.to_owned(),
+        });
     }
-    let mentioned: Vec<File> = files.iter().cloned().chain([close]).collect();
     add_library(&mut items, &mentioned)?;
     let lowered = items.lower_reached(&test.entry);
     let mut parsed = lowered.map_err(|found| Errors::new(found, files))?;
