@@ -28,6 +28,9 @@ pub struct TestArgs {
     /// Write the golden files of pictures from what the interpreter draws
     #[arg(long)]
     pub bless: bool,
+    /// Also count what the tests execute, and write it to this file, as LCOV
+    #[arg(long, value_name = "FILE.info", value_hint = ValueHint::FilePath)]
+    pub coverage: Option<PathBuf>,
     /// Print JSON, one object a line, as the test programs of Rust do
     #[arg(long)]
     pub json: bool,

@@ -119,6 +119,28 @@ fn a_wrong_test_does_not_stop_the_others() {
 }
 
 #[test]
+fn coverage_is_written_as_lcov_and_printed() {
+    let folder = scratch("testing-coverage");
+    let path = write(&folder, "twice.rs", &file_of(&["assert_eq!(twice(1.5), 3.0);", HOLDS]));
+    let info = folder.join("twice.info").display().to_string();
+    let arguments = ["test", &path, "--without-gpu", "--cases", "7", "--coverage", &info];
+    let said = finishes(&arguments);
+    let line = format!("\n{path}  100.0 % of lines, 0 of 0 branches\n");
+    assert!(said.ends_with(&line), "{said}");
+    let text = std::fs::read_to_string(&info).expect("it is written");
+    let counts = "FN:4,twice\nFNDA:8,twice\nFNF:1\nFNH:1\nBRF:0\nBRH:0\nDA:4,8\nDA:5,8\nLF:2\nLH:2\nend_of_record\n";
+    assert_eq!(text, format!("TN:\nSF:{path}\n{counts}"));
+    let lines = String::from_utf8_lossy(&straightline(&[&arguments[..], &["--json"]].concat()).stdout).into_owned();
+    let last: serde_json::Value = serde_json::from_str(lines.lines().last().expect("a line")).expect("JSON");
+    assert_eq!((&last["type"], &last["lines"]["run"]), (&"coverage".into(), &2.into()), "{last}");
+    // A test that fails or is refused does not keep the others from being counted.
+    let path = write(&folder, "twice.rs", &file_of(&[FAILS, "for_all(|x: f64| assert!(x > 0.0));"]));
+    fails(&["test", &path, "--without-gpu", "--cases", "7", "--coverage", &info], 1, &["2 of 2 tests failed"]);
+    let text = std::fs::read_to_string(&info).expect("it is written");
+    assert!(text.contains("FNDA:7,twice"), "{text}");
+}
+
+#[test]
 fn files_and_names_without_tests_are_refused() {
     let folder = scratch("testing-none");
     let path = write(&folder, "none.rs", "pub fn twice(x: f32) -> f32 { x + x }\n");

@@ -2,7 +2,7 @@
 
 use super::file::TestKernel;
 use super::outcome::Outcome;
-use straightline_evaluator::front::testing::{CASES, FLOATS, STATE, WORDS};
+use straightline_evaluator::front::testing::{CASES, COUNTS, FLOATS, STATE, WORDS};
 use straightline_kernels::properties::{Argument, Case};
 
 /// Invocations in a row.
@@ -24,6 +24,7 @@ impl TestKernel {
         let invocations = width * height;
         let zeros = |count: usize| vec![[0.0; 4]; count * invocations];
         let mut contents = vec![(STATE, zeros(2)), (FLOATS, zeros(2)), (WORDS, zeros(2))];
+        contents.extend(self.counts_buffer());
         if !self.test.arguments.is_empty() {
             let last = cases.last().map_or(&[][..], Vec::as_slice);
             let padding = std::iter::repeat_n(last, invocations - cases.len());
@@ -35,6 +36,11 @@ impl TestKernel {
             size: [width as u32, height as u32],
             contents,
         }
+    }
+
+    /// The buffer with the executions by probe, of a test that is covered.
+    pub(super) fn counts_buffer(&self) -> Option<(&'static str, Vec<[f64; 4]>)> {
+        self.test.covered.then(|| (COUNTS, vec![[0.0; 4]; self.probes]))
     }
 
     /// The numbers and vectors of a case.

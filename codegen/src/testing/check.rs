@@ -9,6 +9,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors};
+use straightline_evaluator::front::testing::Test;
 use straightline_kernels::properties::{Argument, CASES, Case, SEED, generate_cases, minimise_case};
 
 /// Cases of a check, and its limit.
@@ -32,13 +33,21 @@ impl Default for Plan {
     }
 }
 
+impl Plan {
+    /// The cases of a test: one without arguments, if it has no property.
+    pub fn cases_of(&self, test: &Test) -> Vec<Case> {
+        let arguments: Vec<Argument> = test.arguments.iter().map(|(_, argument)| *argument).collect();
+        match arguments.is_empty() {
+            true => vec![Case::new()],
+            false => generate_cases(&arguments, self.cases, self.seed),
+        }
+    }
+}
+
 /// Runs a test without a picture by the interpreter in `f32`, then by `device`, and in `f64` by the interpreter.
 pub fn check_test(kernel: &TestKernel, plan: &Plan, device: Option<&mut dyn Runner>) -> Verdict {
     let arguments: Vec<Argument> = kernel.test.arguments.iter().map(|(_, argument)| *argument).collect();
-    let cases = match arguments.is_empty() {
-        true => vec![Case::new()],
-        false => generate_cases(&arguments, plan.cases, plan.seed),
-    };
+    let cases = plan.cases_of(&kernel.test);
     let deadline = Rc::new(Cell::new(Instant::now() + plan.time));
     let mut single = Interpreted {
         double: false,

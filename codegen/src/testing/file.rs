@@ -6,7 +6,8 @@ use crate::spec::Settings;
 use std::path::Path;
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Errors, File};
-use straightline_evaluator::front::testing::{Site, Test, TestPicture, list_tests};
+use straightline_evaluator::policy::Unroll;
+use straightline_evaluator::front::testing::{Site, Test, TestPicture, list_probes, list_tests};
 
 /// A kernel's file with its tests.
 #[derive(Clone, Debug)]
@@ -30,6 +31,8 @@ pub struct TestKernel {
     pub sites: Arc<Vec<Site>>,
     /// The files.
     pub files: Arc<Vec<File>>,
+    /// Number of probes in it.
+    pub(super) probes: usize,
 }
 
 impl TestFile {
@@ -90,6 +93,26 @@ impl TestFile {
         self.compile_with(&Test { picture, ..test.clone() }, settings)
     }
 
+    /// Compiles the kernel of a test, or of another picture of it, with probes that count what it executes. Loops stay in the
+    /// shader where they can.
+    ///
+    /// # Errors
+    ///
+    /// As of [`TestFile::compile`].
+    pub fn compile_covered(
+        &self,
+        test: &Test,
+        picture: Option<&TestPicture>,
+        settings: &Settings,
+    ) -> Result<TestKernel, Errors> {
+        let covered = Test {
+            covered: true,
+            picture: picture.cloned(),
+            ..test.clone()
+        };
+        self.compile_with(&covered, &settings.clone().unroll(Unroll::None))
+    }
+
     /// As [`TestFile::compile`], with settings.
     ///
     /// # Errors
@@ -99,12 +122,17 @@ impl TestFile {
         if !test.errors.is_empty() {
             return Err(Errors::new(test.errors.clone(), &self.files));
         }
+        let probes = match test.covered {
+            true => deep(|| list_probes(&self.files))?.len(),
+            false => 0,
+        };
         let compiled = Kernel::from_test(&self.files, test).compile(settings)?;
         Ok(TestKernel {
             compiled,
             test: test.clone(),
             sites: Arc::clone(&self.sites),
             files: Arc::clone(&self.files),
+            probes,
         })
     }
 }

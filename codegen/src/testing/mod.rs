@@ -2,7 +2,7 @@
 //!
 //! A `#[test]` in the file becomes a compute kernel whose invocations run one case each. [`TestFile`] finds the tests,
 //! [`TestFile::compile`] makes the kernel of one, and [`check_test`] runs it: by the interpreter in `f32` and `f64`, and by
-//! any other [`Runner`], such as a GPU. A test that draws a picture runs by [`interpret_picture`]; the caller compares it.
+//! any other [`Runner`], such as a GPU. [`Coverage`] has what the tests execute. A test that draws a picture runs by [`interpret_picture`]; the caller compares it.
 //!
 //! ```
 //! use straightline_codegen::testing::{Plan, TestFile, Verdict, check_test};
@@ -31,6 +31,7 @@
 
 mod buffers;
 mod check;
+mod coverage;
 mod file;
 mod outcome;
 mod picture;
@@ -40,6 +41,7 @@ mod verdict;
 
 pub use buffers::Buffers;
 pub use check::{Plan, check_test, report_not_run};
+pub use coverage::{Branch, Coverage, FileCoverage, cover_cases, cover_picture};
 pub use file::{TestFile, TestKernel};
 pub use outcome::{Outcome, Recording, Violation};
 pub use picture::{Painted, interpret_picture, pixel_inputs, report_pixel};

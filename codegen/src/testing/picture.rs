@@ -4,13 +4,13 @@ use super::buffers::Buffers;
 use super::file::TestKernel;
 use super::outcome::{Outcome, Violation};
 use super::report::label_of;
-use super::run::RunnerError;
+use super::run::{Contents, RunnerError, bindings, run_frame};
 use super::verdict::Failure;
 use std::time::Instant;
 use straightline_evaluator::diagnostic::{Code, Diagnostic, Errors};
 use straightline_evaluator::front::testing::{FLOATS, STATE, TestPicture, WORDS};
-use straightline_evaluator::interp::{Bindings, Image, Interpreter, MOST_ITERATIONS};
-use straightline_evaluator::ir::{Access, Real};
+use straightline_evaluator::interp::Image;
+use straightline_evaluator::ir::Real;
 use straightline_kernels::pictures::Drawn;
 
 /// A picture with the outcomes of the assertions in it.
@@ -33,7 +33,7 @@ impl TestKernel {
         let zeros = |name| (name, vec![[0.0; 4]; count]);
         Buffers {
             size: picture.size,
-            contents: [STATE, FLOATS, WORDS].map(zeros).to_vec(),
+            contents: [STATE, FLOATS, WORDS].map(zeros).into_iter().chain(self.counts_buffer()).collect(),
         }
     }
 
@@ -74,44 +74,29 @@ pub fn interpret_picture<R: Real>(
     images: &[(String, Drawn)],
     deadline: Instant,
 ) -> Result<Painted, RunnerError> {
-    let (graph, schedule) = (&kernel.compiled.graph, &kernel.compiled.schedule);
+    let (contents, texels) = run_picture::<R>(kernel, picture, images, deadline)?;
+    Ok(kernel.read_painted(picture, texels, &contents))
+}
+
+/// Runs the kernel of a picture. Returns the buffers that it writes, and the texels.
+pub(super) fn run_picture<R: Real>(
+    kernel: &TestKernel,
+    picture: &TestPicture,
+    images: &[(String, Drawn)],
+    deadline: Instant,
+) -> Result<(Contents, Vec<[f32; 4]>), RunnerError> {
     let given = kernel.picture_buffers(picture);
     let texture = |(name, image): &(String, Drawn)| Some((name.clone(), Image::new(image.size, vec![image.texels.clone()])?));
     let textures: Vec<(String, Image)> = images.iter().filter_map(texture).collect();
-    let mut bindings = Bindings::new();
-    for (name, values) in &given.contents {
-        bindings = bindings.buffer(name, values);
-    }
+    let mut bindings = bindings(&given.contents);
     for (name, image) in &textures {
         bindings = bindings.texture(name, image);
     }
     for (name, state) in &picture.samplers {
         bindings = bindings.sampler(name, *state);
     }
-    let interpreter = Interpreter::<R>::in_precision(graph, schedule, picture.size, &bindings)
-        .map_err(|error| RunnerError::Failed(error.to_string()))?;
-    let mut scratch = interpreter.new_scratch();
     let [width, height] = picture.size;
-    let mut texels = Vec::with_capacity(width as usize * height as usize);
-    for y in 0..height {
-        for x in 0..width {
-            if Instant::now() > deadline {
-                let what = format!("the interpreter ran out of time in row {y} of {height}");
-                return Err(RunnerError::Limit(what));
-            }
-            let values = interpreter.run_invocation(x, y, &mut scratch);
-            if scratch.is_endless() {
-                let what = format!("the pixel ({x}, {y}) has more than {MOST_ITERATIONS} iterations");
-                return Err(RunnerError::Limit(what));
-            }
-            let texel = values.first().map(|texel| texel.map(|component| component.to_f64() as f32));
-            texels.push(texel.unwrap_or_default());
-        }
-    }
-    let buffers = graph.buffers.iter().enumerate();
-    let written = buffers.filter(|(_, buffer)| buffer.access != Access::Read);
-    let contents = written.map(|(k, buffer)| (buffer.name.clone(), interpreter.buffer_contents(k, &scratch)));
-    Ok(kernel.read_painted(picture, texels, &contents.collect::<Vec<_>>()))
+    run_frame::<R>(kernel, picture.size, &bindings, width as usize * height as usize, deadline)
 }
 
 /// Reports an assertion that fails at a pixel.

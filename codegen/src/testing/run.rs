@@ -41,27 +41,57 @@ pub fn interpret_cases<R: Real>(
     cases: &[Case],
     deadline: Instant,
 ) -> Result<Vec<Outcome>, RunnerError> {
-    let (graph, schedule) = (&kernel.compiled.graph, &kernel.compiled.schedule);
+    let contents = buffers_after::<R>(kernel, cases, deadline)?;
+    Ok(kernel.outcomes(&contents, cases.len()))
+}
+
+/// Contents of the buffers that are written, by name, after the cases have run.
+pub(super) fn buffers_after<R: Real>(
+    kernel: &TestKernel,
+    cases: &[Case],
+    deadline: Instant,
+) -> Result<Contents, RunnerError> {
     let given = kernel.buffers(cases);
-    let interpreter = Interpreter::<R>::in_precision(graph, schedule, given.size, &bindings(&given.contents))
+    let bindings = bindings(&given.contents);
+    let (contents, _) = run_frame::<R>(kernel, given.size, &bindings, cases.len(), deadline)?;
+    Ok(contents)
+}
+
+/// Contents of buffers by name.
+pub(super) type Contents = Vec<(String, Vec<[f64; 4]>)>;
+
+/// Runs `count` invocations in the rows of a frame. Returns the buffers that they write, and their colours.
+pub(super) fn run_frame<R: Real>(
+    kernel: &TestKernel,
+    size: [u32; 2],
+    bindings: &Bindings<'_>,
+    count: usize,
+    deadline: Instant,
+) -> Result<(Contents, Vec<[f32; 4]>), RunnerError> {
+    let (graph, schedule) = (&kernel.compiled.graph, &kernel.compiled.schedule);
+    let interpreter = Interpreter::<R>::in_precision(graph, schedule, size, bindings)
         .map_err(|error| RunnerError::Failed(error.to_string()))?;
     let mut scratch = interpreter.new_scratch();
-    for k in 0..cases.len() as u32 {
+    let mut texels = Vec::with_capacity(count);
+    let noun = if kernel.test.picture.is_some() { "pixel" } else { "case" };
+    for k in 0..count as u32 {
         if Instant::now() > deadline {
-            let what = format!("the interpreter ran out of time after {k} of {} cases", cases.len());
+            let what = format!("the interpreter ran out of time after {k} of {count} {noun}s");
             return Err(RunnerError::Limit(what));
         }
-        interpreter.run_invocation(k % given.size[0], k / given.size[0], &mut scratch);
+        let values = interpreter.run_invocation(k % size[0], k / size[0], &mut scratch);
         if scratch.is_endless() {
             return Err(RunnerError::Limit(format!(
-                "a case has more than {MOST_ITERATIONS} iterations"
+                "a {noun} has more than {MOST_ITERATIONS} iterations"
             )));
         }
+        let texel = values.first().map(|texel| texel.map(|component| component.to_f64() as f32));
+        texels.push(texel.unwrap_or_default());
     }
     let buffers = graph.buffers.iter().enumerate();
     let written = buffers.filter(|(_, buffer)| buffer.access != Access::Read);
     let contents = written.map(|(k, buffer)| (buffer.name.clone(), interpreter.buffer_contents(k, &scratch)));
-    Ok(kernel.outcomes(&contents.collect::<Vec<_>>(), cases.len()))
+    Ok((contents.collect(), texels))
 }
 
 /// Finds the first operation of a case whose results in `f32` and `f64` are far apart.
@@ -71,7 +101,7 @@ pub(super) fn divergence_of(kernel: &TestKernel, case: &Case) -> Option<Divergen
     first_divergence(graph, schedule, given.size, &bindings(&given.contents), [0, 0]).ok()?
 }
 
-fn bindings<'a>(contents: &'a [(&'static str, Vec<[f64; 4]>)]) -> Bindings<'a> {
+pub(super) fn bindings<'a>(contents: &'a [(&'static str, Vec<[f64; 4]>)]) -> Bindings<'a> {
     let all = contents.iter();
     all.fold(Bindings::new(), |bindings, (name, values)| {
         bindings.buffer(name, values)

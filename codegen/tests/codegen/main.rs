@@ -7,6 +7,7 @@ mod codes;
 #[path = "../../../tests/src/compilers.rs"]
 mod compilers;
 mod config;
+mod coverage;
 mod drawing;
 mod emission;
 mod errors;

@@ -1,10 +1,10 @@
-//! Assertions of a test, whose first failure in an invocation is written to buffers of the test's kernel.
+//! Assertions of a test, whose first failure in an invocation is written to buffers of the test's kernel, and its probes.
 
 use super::Evaluator;
 use super::effects::MemoryEffect;
 use super::value::{Eval, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::front::testing::{FLOATS, Kind, Recorded, STATE, WORDS};
+use crate::front::testing::{COUNTS, FLOATS, Kind, Recorded, STATE, WORDS};
 use crate::ir::{AtomicOp, BinaryOp, Memory, NodeId, Op, Scalar, Type};
 
 impl Evaluator<'_> {
@@ -52,6 +52,16 @@ impl Evaluator<'_> {
                 Ok(Value::unit())
             })
         })
+    }
+
+    /// Counts an execution of a probe.
+    pub(super) fn eval_count(&mut self, probe: &Value, span: Span) -> Eval {
+        let Some(counts) = self.buffer_named(COUNTS) else {
+            return Err(Diagnostic::error_at(Code::UnknownFunction, span, "a probe outside of a test").into());
+        };
+        let one = self.u32_value(1);
+        self.effect_on(counts, MemoryEffect::Atomic(AtomicOp::Add), &[probe.clone(), one], span)?;
+        Ok(Value::unit())
     }
 
     fn u32_value(&mut self, n: u32) -> Value {

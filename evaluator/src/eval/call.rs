@@ -6,7 +6,7 @@ use super::report::MAX_CALLS;
 use super::value::{ConstantDemand, Eval, Exit, Jump, Value};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text};
-use crate::front::testing::RECORD;
+use crate::front::testing::{COUNT, RECORD};
 use crate::front::tree::{Expr, ExprKind, Function, Generic, Type as SourceType, generic_arguments, split_qualified};
 use crate::ir::{Naming, NodeId, Op, Scalar, Type};
 use std::borrow::Cow;
@@ -236,6 +236,7 @@ impl<'a> Evaluator<'a> {
                 self.compose_vector(kind, lanes, &values, span)
             }
             ([.., name], [Value::Str(tally), value]) if name == "tally" => self.eval_tally(tally, value, span),
+            ([name], [probe]) if name == COUNT => self.eval_count(probe, span),
             ([name], [site, condition, left, right]) if name == RECORD => {
                 self.eval_record(site, condition, [left, right], span)
             }

@@ -5,7 +5,7 @@ use super::types::{Kind, Ty};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::front::instead::{Receiver, find_text, find_type};
 use crate::front::methods;
-use crate::front::testing::RECORD;
+use crate::front::testing::{COUNT, RECORD};
 use crate::front::tree::{Expr, ExprKind, Function, IntType, Type as SourceType};
 use crate::ir::{Scalar, Type};
 use std::collections::HashMap;
@@ -373,6 +373,10 @@ impl<'l> Checker<'l> {
             ([.., "tally"], [name, value]) => {
                 self.infer_expr(name, None);
                 self.infer_expr(value, None)
+            }
+            ([.., COUNT], [probe]) => {
+                self.infer_expr(probe, None);
+                Ty::UNIT
             }
             ([.., RECORD], [site, condition, left, right]) => {
                 self.infer_expr(site, None);

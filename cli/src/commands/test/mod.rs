@@ -1,5 +1,6 @@
 //! `test`: runs the tests of a kernel's file as shaders.
 
+mod coverage;
 mod device;
 mod junit;
 mod picture;
@@ -8,14 +9,15 @@ mod print;
 use crate::args::TestArgs;
 use crate::failure::{Failure, format_count};
 use crate::gpu::{Gpu, INSTALL};
+use coverage::Covering;
 use device::DeviceRunner;
 use picture::PictureTest;
 use print::Printer;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::files;
-use straightline_codegen::testing::{self, Plan, Runner, Test, TestFile, Verdict, check_test};
+use straightline_codegen::{Settings, files};
+use straightline_codegen::testing::{self, Coverage, Plan, Runner, Test, TestFile, TestKernel, Verdict, check_test};
 
 /// Result of a test with its duration.
 pub struct Done<'t> {
@@ -38,7 +40,7 @@ pub enum End {
 
 /// Runs the selected tests and prints their results. Fails if one fails, or if there is none.
 pub fn run_tests(args: &TestArgs) -> Result<(), Failure> {
-    if let Some(path) = &args.junit {
+    for path in args.junit.iter().chain(&args.coverage) {
         files::try_file(path, false).map_err(Failure::from_error)?;
     }
     let file = TestFile::read(&args.file, args.source.iter().map(PathBuf::as_path))?;
@@ -52,11 +54,17 @@ pub fn run_tests(args: &TestArgs) -> Result<(), Failure> {
     let printer = Printer { json: args.json };
     printer.print_start(&shown, selected.len(), &by);
     let start = Instant::now();
+    let mut coverage = args.coverage.as_ref().map(|_| Coverage::new(&file)).transpose()?;
     let mut all = Vec::new();
     for test in selected {
         printer.print_name(test);
         let begun = Instant::now();
-        let end = run_test(args, &file, test, gpu.as_ref());
+        let mut end = run_test(args, &file, test, gpu.as_ref());
+        if let (Some(coverage), false) = (&mut coverage, matches!(end, End::Ignored | End::Refused(_)))
+            && let Err(failure) = cover_test(args, &file, test, coverage)
+        {
+            end = End::Failed(failure);
+        }
         let done = Done {
             test,
             end,
@@ -70,6 +78,9 @@ pub fn run_tests(args: &TestArgs) -> Result<(), Failure> {
     if let Some(path) = &args.junit {
         let text = junit::results_xml(&shown, &file, &all, start.elapsed());
         files::write_file(path, text.as_bytes()).map_err(Failure::from_error)?;
+    }
+    if let (Some(coverage), Some(path)) = (&coverage, &args.coverage) {
+        coverage::write_coverage(coverage, path, args.json)?;
     }
     match all.iter().filter(|done| done.has_failed()).count() {
         0 => Ok(()),
@@ -135,25 +146,53 @@ fn run_test(args: &TestArgs, file: &TestFile, test: &Test, gpu: Option<&Gpu>) ->
         Ok(kernel) => kernel,
         Err(errors) => return End::Refused(errors),
     };
-    let plan = Plan {
+    let mut device = gpu.map(DeviceRunner::new);
+    if let Some(picture) = &test.picture {
+        return drawing_of(args, file, &kernel, &settings).run(picture, device.as_mut());
+    }
+    let device = device.as_mut().map(|device| device as &mut dyn Runner);
+    match check_test(&kernel, &plan_of(args), device) {
+        Verdict::Passed(passed) => End::Passed { note: passed.note },
+        Verdict::Failed(failure) => End::Failed(failure),
+    }
+}
+
+/// Runs a test once more, and counts what it executes.
+fn cover_test(
+    args: &TestArgs,
+    file: &TestFile,
+    test: &Test,
+    coverage: &mut Coverage,
+) -> Result<(), Box<testing::Failure>> {
+    let settings = args.options.settings();
+    let kernel = file.compile_covered(test, test.picture.as_ref(), &settings);
+    let kernel = kernel.map_err(testing::Failure::from_errors)?;
+    let covering = Covering {
+        drawing: drawing_of(args, file, &kernel, &settings),
+        plan: plan_of(args),
+    };
+    covering.run(coverage)
+}
+
+fn plan_of(args: &TestArgs) -> Plan {
+    Plan {
         cases: args.cases as usize,
         seed: args.seed,
         ..Plan::default()
-    };
-    let mut device = gpu.map(DeviceRunner::new);
-    if let Some(picture) = &test.picture {
-        let drawing = PictureTest {
-            file,
-            kernel: &kernel,
-            settings: &settings,
-            path: &args.file,
-            bless: args.bless,
-        };
-        return drawing.run(picture, device.as_mut());
     }
-    let device = device.as_mut().map(|device| device as &mut dyn Runner);
-    match check_test(&kernel, &plan, device) {
-        Verdict::Passed(passed) => End::Passed { note: passed.note },
-        Verdict::Failed(failure) => End::Failed(failure),
+}
+
+fn drawing_of<'a>(
+    args: &'a TestArgs,
+    file: &'a TestFile,
+    kernel: &'a TestKernel,
+    settings: &'a Settings,
+) -> PictureTest<'a> {
+    PictureTest {
+        file,
+        kernel,
+        settings,
+        path: &args.file,
+        bless: args.bless,
     }
 }

@@ -50,7 +50,7 @@ impl PictureTest<'_> {
     }
 
     /// Reads and draws the textures of a picture.
-    fn make_images(&self, picture: &TestPicture, deadline: Instant) -> Result<Vec<(String, Drawn)>, Box<Failure>> {
+    pub fn make_images(&self, picture: &TestPicture, deadline: Instant) -> Result<Vec<(String, Drawn)>, Box<Failure>> {
         let mut images = Vec::new();
         for image in &picture.images {
             let made = match &image.source {

@@ -2,7 +2,7 @@
 
 use super::arguments::{read_arguments, unsupported};
 use super::picture::{draws_picture, kernel_of_picture, read_test_picture};
-use super::{CASES, FLOATS, STATE, Test, WORDS};
+use super::{CASES, COUNTS, FLOATS, STATE, Test, WORDS};
 use crate::diagnostic::Diagnostic;
 use crate::front::token_span;
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
@@ -91,6 +91,7 @@ fn describe_test(file: u32, path: &str, function: &syn::ItemFn) -> Test {
         span: token_span(file, function.sig.ident.span()),
         arguments,
         picture,
+        covered: false,
         ignored: has_attribute(&function.attrs, "ignore"),
         errors,
     }
@@ -187,7 +188,7 @@ fn become_kernel(function: &mut syn::ItemFn, test: &Test) {
         .attrs
         .retain(|attr| !names.iter().any(|name| attr.path().is_ident(name)));
     let entry = Ident::new(&test.entry, at);
-    let [cases, state, floats, words] = [CASES, STATE, FLOATS, WORDS].map(|name| Ident::new(name, at));
+    let [cases, counts, state, floats, words] = [CASES, COUNTS, STATE, FLOATS, WORDS].map(|name| Ident::new(name, at));
     let (given, load) = match test.arguments.is_empty() {
         true => (TokenStream::new(), TokenStream::new()),
         false => (
@@ -209,12 +210,14 @@ fn become_kernel(function: &mut syn::ItemFn, test: &Test) {
             [TokenStream::new(), statements, TokenStream::new()]
         }
     };
+    let counts = test.covered.then(|| quote_spanned!(at=> #counts: &AtomicBuffer<u32>,));
     let attrs = &function.attrs;
     let kernel = quote_spanned!(at=>
         #(#attrs)*
         pub fn #entry(
             #given
             #resources
+            #counts
             #state: &AtomicBuffer<u32>,
             #floats: &StorageBuffer<Vec4>,
             #words: &StorageBuffer<UVec4>,

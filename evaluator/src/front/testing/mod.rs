@@ -7,10 +7,12 @@ mod arguments;
 mod assertions;
 mod entry;
 mod picture;
+mod probes;
 mod recorded;
 
 pub use assertions::{Site, SiteKind};
 pub use picture::{ImageSource, TestImage, TestPicture};
+pub use probes::{Probe, ProbeKind};
 pub use recorded::{Kind, Recorded};
 
 use super::{Parsed, add_library, collect_items, purposes, read_syntax, std, syntax_error};
@@ -20,6 +22,12 @@ use straightline_kernels::properties::{Argument, CLOSE, COLOR};
 
 /// Function that records an assertion: its site, its condition and its values.
 pub const RECORD: &str = "straightline_record";
+
+/// Function that counts an execution of a probe.
+pub const COUNT: &str = "straightline_count";
+
+/// Buffer with the executions by probe, of a test that is covered.
+pub const COUNTS: &str = "straightline_counts";
 
 /// Variables that hold the values of an assertion, left and right.
 pub const VALUE_NAMES: [&str; 2] = ["straightline_left", "straightline_right"];
@@ -58,6 +66,8 @@ pub struct Test {
     pub arguments: Vec<(String, Argument)>,
     /// Picture that it draws; `None` without `assert_picture`.
     pub picture: Option<TestPicture>,
+    /// `true` if its kernel counts what it executes, by [`list_probes`].
+    pub covered: bool,
     /// `true` if it has the attribute `ignore`.
     pub ignored: bool,
     /// Reasons why no kernel can be made of it.
@@ -82,6 +92,19 @@ pub fn list_tests(files: &Arc<Vec<File>>) -> Result<Tests, Errors> {
     Ok(Tests { tests, sites })
 }
 
+/// Lists the places of all files whose executions are counted, in the order of their numbers.
+///
+/// # Errors
+///
+/// If a file is not Rust.
+pub fn list_probes(files: &Arc<Vec<File>>) -> Result<Vec<Probe>, Errors> {
+    let mut probes = Vec::new();
+    for (file, mut parsed) in read_syntax(files)? {
+        probes::insert_probes(file, &mut parsed, &mut probes);
+    }
+    Ok(probes)
+}
+
 /// Reads all files and lowers what the kernel of `test` reaches.
 ///
 /// # Errors
@@ -90,7 +113,11 @@ pub fn list_tests(files: &Arc<Vec<File>>) -> Result<Tests, Errors> {
 pub fn parse_test(files: &Arc<Vec<File>>, test: &Test) -> Result<Parsed, Errors> {
     let mut sites = Vec::new();
     let mut syntax = Vec::new();
-    for (file, parsed) in read_syntax(files)? {
+    let mut probes = Vec::new();
+    for (file, mut parsed) in read_syntax(files)? {
+        if test.covered {
+            probes::insert_probes(file, &mut parsed, &mut probes);
+        }
         let mut parsed = rewrite(files, file, parsed, &mut sites)?;
         if file == 0 {
             entry::make_kernel(&mut parsed, test);
