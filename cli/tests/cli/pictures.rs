@@ -48,11 +48,17 @@ fn pictures_are_blessed_and_compared_by_interpreter_and_driver() {
     let info = folder.join("bright.info").display().to_string();
     finishes(&["test", &path, "--without-gpu", "--coverage", &info]);
     let counts = std::fs::read_to_string(info).expect("it is written");
-    assert!(counts.contains("FNDA:32,bright") && counts.contains("DA:7,32"), "{counts}");
+    assert!(
+        counts.contains("FNDA:32,bright") && counts.contains("DA:7,32"),
+        "{counts}"
+    );
     // A driver weighs texels by multiples of 1/256.
     let path = write(&folder, "bright.rs", &ramp("1.0", "absolute(3.0 / 255.0)"));
     let said = finishes(&["test", &path]);
-    assert!(said.contains("by the interpreter and ") && said.contains("1 passed"), "{said}");
+    assert!(
+        said.contains("by the interpreter and ") && said.contains("1 passed"),
+        "{said}"
+    );
     let drawn = straightline_kernels::pictures::read_drawn(&folder.join("ramp.png"), true).expect("a PNG");
     assert_eq!((drawn.size, drawn.texels.len()), ([8, 4], 32));
     // Across the edge, the ramp repeats: half of 3/8 is in the first column, a quarter of it by the filter.
@@ -83,14 +89,30 @@ fn a_picture_that_differs_is_reported_in_every_format() {
     }
     let read = |name: &str| straightline_kernels::pictures::read_drawn(&folder.join(name), true);
     let size = |name: &str| read(name).map(|drawn| drawn.size);
-    assert_eq!((size("ramp.actual.png"), size("ramp.difference.png")), (Ok([8, 4]), Ok([8, 4])));
+    assert_eq!(
+        (size("ramp.actual.png"), size("ramp.difference.png")),
+        (Ok([8, 4]), Ok([8, 4]))
+    );
     let xml = std::fs::read_to_string(xml).expect("it is written");
     assert!(xml.contains("draws another picture"), "{xml}");
     let lines = printed(&["test", &path, "--without-gpu", "--json"]);
-    let events = lines.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).expect("JSON"));
-    let failed = events.into_iter().find(|event| event["event"] == "failed").expect("a failure");
-    assert!(failed["psnr"].as_f64().is_some_and(|psnr| (20.0..40.0).contains(&psnr)), "{failed}");
-    assert!(failed["inputs"][0].as_str().is_some_and(|text| text.starts_with("let pixel = ivec2(")), "{failed}");
+    let events = lines
+        .lines()
+        .map(|line| serde_json::from_str::<serde_json::Value>(line).expect("JSON"));
+    let failed = events
+        .into_iter()
+        .find(|event| event["event"] == "failed")
+        .expect("a failure");
+    assert!(
+        failed["psnr"].as_f64().is_some_and(|psnr| (20.0..40.0).contains(&psnr)),
+        "{failed}"
+    );
+    assert!(
+        failed["inputs"][0]
+            .as_str()
+            .is_some_and(|text| text.starts_with("let pixel = ivec2(")),
+        "{failed}"
+    );
     // A wider tolerance takes it, and the blessed file is the new picture.
     let path = write(&folder, "bright.rs", &ramp("0.9", "psnr(20.0)"));
     finishes(&["test", &path, "--without-gpu"]);

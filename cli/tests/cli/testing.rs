@@ -132,10 +132,22 @@ fn coverage_is_written_as_lcov_and_printed() {
     assert_eq!(text, format!("TN:\nSF:{path}\n{counts}"));
     let lines = String::from_utf8_lossy(&straightline(&[&arguments[..], &["--json"]].concat()).stdout).into_owned();
     let last: serde_json::Value = serde_json::from_str(lines.lines().last().expect("a line")).expect("JSON");
-    assert_eq!((&last["type"], &last["lines"]["run"]), (&"coverage".into(), &2.into()), "{last}");
+    assert_eq!(
+        (&last["type"], &last["lines"]["run"]),
+        (&"coverage".into(), &2.into()),
+        "{last}"
+    );
     // A test that fails or is refused does not keep the others from being counted.
-    let path = write(&folder, "twice.rs", &file_of(&[FAILS, "for_all(|x: f64| assert!(x > 0.0));"]));
-    fails(&["test", &path, "--without-gpu", "--cases", "7", "--coverage", &info], 1, &["2 of 2 tests failed"]);
+    let path = write(
+        &folder,
+        "twice.rs",
+        &file_of(&[FAILS, "for_all(|x: f64| assert!(x > 0.0));"]),
+    );
+    fails(
+        &["test", &path, "--without-gpu", "--cases", "7", "--coverage", &info],
+        1,
+        &["2 of 2 tests failed"],
+    );
     let text = std::fs::read_to_string(&info).expect("it is written");
     assert!(text.contains("FNDA:7,twice"), "{text}");
 }

@@ -72,7 +72,11 @@ impl Coverage {
 
     /// Coverage by file. Files without functions, but those of tests, are left out.
     pub fn by_file(&self) -> Vec<FileCoverage> {
-        let all = self.files.iter().zip(0..).map(|(file, index)| self.cover_file(&file.path, index));
+        let all = self
+            .files
+            .iter()
+            .zip(0..)
+            .map(|(file, index)| self.cover_file(&file.path, index));
         all.filter(|covered| !covered.functions.is_empty()).collect()
     }
 
@@ -206,11 +210,18 @@ impl fmt::Display for FileCoverage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [_, lines, branches] = self.totals();
         let share = 100.0 * lines.0 as f64 / lines.1.max(1) as f64;
-        write!(f, "{}  {share:.1} % of lines, {} of {} branches", self.path, branches.0, branches.1)?;
-        let ranges = self.missing_lines().into_iter().map(|[first, last]| match first == last {
-            true => first.to_string(),
-            false => format!("{first}-{last}"),
-        });
+        write!(
+            f,
+            "{}  {share:.1} % of lines, {} of {} branches",
+            self.path, branches.0, branches.1
+        )?;
+        let ranges = self
+            .missing_lines()
+            .into_iter()
+            .map(|[first, last]| match first == last {
+                true => first.to_string(),
+                false => format!("{first}-{last}"),
+            });
         let ranges: Vec<String> = ranges.collect();
         match ranges.is_empty() {
             true => Ok(()),

@@ -6,8 +6,8 @@ use crate::spec::Settings;
 use std::path::Path;
 use std::sync::Arc;
 use straightline_evaluator::diagnostic::{Errors, File};
-use straightline_evaluator::policy::Unroll;
 use straightline_evaluator::front::testing::{Site, Test, TestPicture, list_probes, list_tests};
+use straightline_evaluator::policy::Unroll;
 
 /// A kernel's file with its tests.
 #[derive(Clone, Debug)]
@@ -88,9 +88,20 @@ impl TestFile {
     /// # Errors
     ///
     /// As of [`TestFile::compile`].
-    pub fn compile_picture(&self, test: &Test, picture: &TestPicture, settings: &Settings) -> Result<TestKernel, Errors> {
+    pub fn compile_picture(
+        &self,
+        test: &Test,
+        picture: &TestPicture,
+        settings: &Settings,
+    ) -> Result<TestKernel, Errors> {
         let picture = Some(picture.clone());
-        self.compile_with(&Test { picture, ..test.clone() }, settings)
+        self.compile_with(
+            &Test {
+                picture,
+                ..test.clone()
+            },
+            settings,
+        )
     }
 
     /// Compiles the kernel of a test, or of another picture of it, with probes that count what it executes. Loops stay in the

@@ -33,7 +33,11 @@ impl TestKernel {
         let zeros = |name| (name, vec![[0.0; 4]; count]);
         Buffers {
             size: picture.size,
-            contents: [STATE, FLOATS, WORDS].map(zeros).into_iter().chain(self.counts_buffer()).collect(),
+            contents: [STATE, FLOATS, WORDS]
+                .map(zeros)
+                .into_iter()
+                .chain(self.counts_buffer())
+                .collect(),
         }
     }
 
@@ -86,7 +90,8 @@ pub(super) fn run_picture<R: Real>(
     deadline: Instant,
 ) -> Result<(Contents, Vec<[f32; 4]>), RunnerError> {
     let given = kernel.picture_buffers(picture);
-    let texture = |(name, image): &(String, Drawn)| Some((name.clone(), Image::new(image.size, vec![image.texels.clone()])?));
+    let texture =
+        |(name, image): &(String, Drawn)| Some((name.clone(), Image::new(image.size, vec![image.texels.clone()])?));
     let textures: Vec<(String, Image)> = images.iter().filter_map(texture).collect();
     let mut bindings = bindings(&given.contents);
     for (name, image) in &textures {
@@ -96,7 +101,13 @@ pub(super) fn run_picture<R: Real>(
         bindings = bindings.sampler(name, *state);
     }
     let [width, height] = picture.size;
-    run_frame::<R>(kernel, picture.size, &bindings, width as usize * height as usize, deadline)
+    run_frame::<R>(
+        kernel,
+        picture.size,
+        &bindings,
+        width as usize * height as usize,
+        deadline,
+    )
 }
 
 /// Reports an assertion that fails at a pixel.

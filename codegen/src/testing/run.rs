@@ -85,7 +85,9 @@ pub(super) fn run_frame<R: Real>(
                 "a {noun} has more than {MOST_ITERATIONS} iterations"
             )));
         }
-        let texel = values.first().map(|texel| texel.map(|component| component.to_f64() as f32));
+        let texel = values
+            .first()
+            .map(|texel| texel.map(|component| component.to_f64() as f32));
         texels.push(texel.unwrap_or_default());
     }
     let buffers = graph.buffers.iter().enumerate();

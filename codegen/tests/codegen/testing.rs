@@ -1,11 +1,12 @@
 //! Tests of kernels' files that run as shaders.
 
 use std::time::{Duration, Instant};
+use straightline_codegen::Stage;
 use straightline_codegen::diagnostic::{Code, Errors};
 use straightline_codegen::spec::{EmitOptions, Settings};
-use straightline_codegen::Stage;
 use straightline_codegen::testing::{
-    Case, Failure, ImageSource, Outcome, Plan, Runner, RunnerError, TestFile, TestKernel, Verdict, check_test, interpret_cases,
+    Case, Failure, ImageSource, Outcome, Plan, Runner, RunnerError, TestFile, TestKernel, Verdict, check_test,
+    interpret_cases,
 };
 
 /// A file with a kernel's functions and one test of this body.
@@ -348,20 +349,59 @@ fn pictures_that_no_shader_can_draw_are_refused_with_their_place() {
     let picture = |before: &str, rest: &str| format!("{before}assert_picture({rest});");
     let of = "uvec2(4, 4), |pixel| pixel.x as f32, psnr(50.0)";
     let cases = [
-        (picture("", &format!("\"../a.png\", {of}")), "a picture of this name", "leads out of the folder"),
-        (picture("", &format!("\"a.exr\", {of}")), "a picture of this name", "no `.png`"),
-        (picture("let name = \"a.png\";", &format!("name, {of}")), "not written out", "write `\"golden.png\"`"),
-        (picture("", "\"a.png\", uvec2(4, 0), |pixel| 1.0, exactly()"), "a picture of this size", "1 to 4096"),
-        (picture("", "\"a.png\", size(), |pixel| 1.0, exactly()"), "a size that is not written out", "let size"),
-        (picture("", "\"a.png\", uvec2(4, 4), |pixel| 1.0, ulp(2)"), "such a tolerance", "psnr(50.0)"),
-        (picture("", "\"a.png\", uvec2(4, 4), shade, exactly()"), "no closure", "|pixel|"),
-        (picture("let a = read_picture(\"a.png\");", &format!("\"b.png\", {of}")), "without a type", "Texture<Vec4>"),
         (
-            picture("", "\"a.png\", uvec2(4, 4), |pixel| read(&Sampler::default()), exactly()"),
+            picture("", &format!("\"../a.png\", {of}")),
+            "a picture of this name",
+            "leads out of the folder",
+        ),
+        (
+            picture("", &format!("\"a.exr\", {of}")),
+            "a picture of this name",
+            "no `.png`",
+        ),
+        (
+            picture("let name = \"a.png\";", &format!("name, {of}")),
+            "not written out",
+            "write `\"golden.png\"`",
+        ),
+        (
+            picture("", "\"a.png\", uvec2(4, 0), |pixel| 1.0, exactly()"),
+            "a picture of this size",
+            "1 to 4096",
+        ),
+        (
+            picture("", "\"a.png\", size(), |pixel| 1.0, exactly()"),
+            "a size that is not written out",
+            "let size",
+        ),
+        (
+            picture("", "\"a.png\", uvec2(4, 4), |pixel| 1.0, ulp(2)"),
+            "such a tolerance",
+            "psnr(50.0)",
+        ),
+        (
+            picture("", "\"a.png\", uvec2(4, 4), shade, exactly()"),
+            "no closure",
+            "|pixel|",
+        ),
+        (
+            picture("let a = read_picture(\"a.png\");", &format!("\"b.png\", {of}")),
+            "without a type",
+            "Texture<Vec4>",
+        ),
+        (
+            picture(
+                "",
+                "\"a.png\", uvec2(4, 4), |pixel| read(&Sampler::default()), exactly()",
+            ),
             "`Sampler` here",
             "let linear = Sampler::default();",
         ),
-        (format!("for k in 0..2 {{ assert_picture(\"a.png\", {of}); }}"), "`assert_picture` here", "a statement of the test"),
+        (
+            format!("for k in 0..2 {{ assert_picture(\"a.png\", {of}); }}"),
+            "`assert_picture` here",
+            "a statement of the test",
+        ),
         (
             format!("assert_picture(\"a.png\", {of}); assert_picture(\"b.png\", {of});"),
             "a second picture",

@@ -104,7 +104,11 @@ impl fmt::Display for Difference {
     /// `41.20 dB; 3 pixels differ, most at (7, 2): [255, 0, 0, 255] instead of [250, 0, 0, 255]`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([x, y], [own, golden]) = (self.worst, self.bytes);
-        let differ = if self.count == 1 { "pixel differs" } else { "pixels differ" };
+        let differ = if self.count == 1 {
+            "pixel differs"
+        } else {
+            "pixels differ"
+        };
         write!(f, "{:.2} dB; {} {differ}, most at ({x}, {y}): ", self.psnr, self.count)?;
         match self.texel.iter().any(|component| component.is_nan()) {
             true => write!(f, "{:?} instead of {golden:?}", self.texel),
@@ -131,7 +135,10 @@ mod tests {
         assert_eq!(found.bytes, [[255, 188, 188, 255], [188, 188, 188, 255]]);
         // 67 and 2 of 255 in 2 of 18 components.
         let squares = (67.0 * 67.0 + 2.0 * 2.0) / 18.0;
-        assert!((found.psnr - 10.0 * (65025.0f64 / squares).log10()).abs() < 1e-9, "{found}");
+        assert!(
+            (found.psnr - 10.0 * (65025.0f64 / squares).log10()).abs() < 1e-9,
+            "{found}"
+        );
         assert!(found.is_within(Likeness::Psnr(24.0)) && !found.is_within(Likeness::Psnr(25.0)));
         assert!(found.is_within(Likeness::Absolute(68.0 / 255.0)) && !found.is_within(Likeness::Absolute(0.25)));
         assert!(!found.is_within(Likeness::Exact));
@@ -147,7 +154,10 @@ mod tests {
         let mut drawn = [[0.0, 0.0, 0.0, 1.0]; 2];
         drawn[1][2] = f32::NAN;
         let found = compare_pictures(2, &drawn, &[black; 2]).expect("a NaN is no black");
-        assert!(!found.is_within(Likeness::Psnr(0.0)) && found.to_string().contains("NaN"), "{found}");
+        assert!(
+            !found.is_within(Likeness::Psnr(0.0)) && found.to_string().contains("NaN"),
+            "{found}"
+        );
         let clear = compare_pictures(1, &[[0.0; 4]], &[black]).expect("alpha differs");
         assert!((clear.psnr - 10.0 * 4.0f64.log10()).abs() < 1e-9, "{clear}");
     }

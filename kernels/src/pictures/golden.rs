@@ -38,10 +38,19 @@ impl fmt::Display for Mismatch {
         match self {
             Mismatch::Missing(golden) => write!(f, "there is no golden file `{}` yet", golden.display()),
             Mismatch::Unusable(text) => f.write_str(text),
-            Mismatch::Size { golden, sizes: [[w, h], [width, height]] } => {
-                write!(f, "`{}` is {w}×{h} pixels, and the test draws {width}×{height}", golden.display())
+            Mismatch::Size {
+                golden,
+                sizes: [[w, h], [width, height]],
+            } => {
+                write!(
+                    f,
+                    "`{}` is {w}×{h} pixels, and the test draws {width}×{height}",
+                    golden.display()
+                )
             }
-            Mismatch::Differs { difference, likeness, .. } => write!(f, "{difference}; `{likeness}` is asked"),
+            Mismatch::Differs {
+                difference, likeness, ..
+            } => write!(f, "{difference}; `{likeness}` is asked"),
         }
     }
 }
@@ -53,7 +62,10 @@ impl fmt::Display for Mismatch {
 /// The reason why a test cannot name a picture so.
 pub fn picture_path(folder: &Path, name: &str) -> Result<PathBuf, String> {
     match name_error(name) {
-        Some(reason) => Err(format!("a test cannot use the picture `{}`: {reason}", files::shorten(name))),
+        Some(reason) => Err(format!(
+            "a test cannot use the picture `{}`: {reason}",
+            files::shorten(name)
+        )),
         None => Ok(folder.join(name)),
     }
 }
@@ -95,7 +107,10 @@ pub fn compare_with_file(golden: &Path, drawn: &Drawn, likeness: Likeness, bless
         let most = stored.max_component();
         let bytes: Vec<[u8; 4]> = match most {
             255 => stored.numbers().map(|texel| texel.map(|number| number as u8)).collect(),
-            _ => stored.fractions().map(|texel| texel.map(|x| (x * 255.0).round() as u8)).collect(),
+            _ => stored
+                .fractions()
+                .map(|texel| texel.map(|x| (x * 255.0).round() as u8))
+                .collect(),
         };
         Ok((compare_pictures(drawn.size[0], &drawn.texels, &bytes), bytes))
     });
@@ -153,7 +168,9 @@ fn read_stored(path: &Path) -> Result<Stored, ReadError> {
         )),
     };
     Stored::read(path, MAX_BYTES, check).map_err(|error| match error {
-        super::png::PngError::Io(error) if error.kind() == io::ErrorKind::NotFound => ReadError::Missing(path.to_owned()),
+        super::png::PngError::Io(error) if error.kind() == io::ErrorKind::NotFound => {
+            ReadError::Missing(path.to_owned())
+        }
         error => ReadError::Other(format!("cannot read `{}`: {error}", path.display())),
     })
 }

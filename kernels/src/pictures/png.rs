@@ -1,6 +1,8 @@
 //! PNG files.
 
-use png::{BitDepth, ColorType, Compression, Decoder, DecodingError, Encoder, EncodingError, Filter, Limits, Transformations};
+use png::{
+    BitDepth, ColorType, Compression, Decoder, DecodingError, Encoder, EncodingError, Filter, Limits, Transformations,
+};
 use std::fmt;
 use std::io::{self, BufReader, Write};
 use std::path::Path;
@@ -108,7 +110,8 @@ impl Stored {
     /// Numbers from 0 to 1 of each texel, in even steps.
     pub fn fractions(&self) -> impl Iterator<Item = [f32; 4]> + '_ {
         let most = self.max_component() as f32;
-        self.numbers().map(move |texel| texel.map(|number| number as f32 / most))
+        self.numbers()
+            .map(move |texel| texel.map(|number| number as f32 / most))
     }
 }
 

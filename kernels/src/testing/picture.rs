@@ -108,12 +108,7 @@ impl From<Tolerance> for Likeness {
 ///
 /// If the picture differs by more than `likeness`, if there is no golden file, or if an assertion fails at a pixel.
 #[track_caller]
-pub fn assert_picture<C: Color>(
-    golden: &str,
-    size: UVec2,
-    shade: impl Fn(IVec2) -> C,
-    likeness: impl Into<Likeness>,
-) {
+pub fn assert_picture<C: Color>(golden: &str, size: UVec2, shade: impl Fn(IVec2) -> C, likeness: impl Into<Likeness>) {
     let bless = std::env::var_os("STRAIGHTLINE_BLESS").is_some();
     let path = beside_caller(golden).unwrap_or_else(|error| panic!("{error}"));
     if let Err(message) = compare_drawn(&path, size, shade, likeness.into(), bless) {
@@ -159,7 +154,10 @@ fn beside_caller(name: &str) -> Result<PathBuf, String> {
     let file = Path::new(Location::caller().file());
     let here = std::env::current_dir().map_err(|error| format!("the current folder is unknown: {error}"))?;
     // rustc names files as cargo calls it: from the crate's folder, or from that of the workspace around it.
-    let found = here.ancestors().map(|folder| folder.join(file)).find(|path| path.is_file());
+    let found = here
+        .ancestors()
+        .map(|folder| folder.join(file))
+        .find(|path| path.is_file());
     let found = found.ok_or_else(|| {
         format!(
             "the test's file `{}` is not below `{}`: run the test by `cargo test`",
@@ -191,12 +189,18 @@ mod tests {
         let golden = folder.join("ramp.png");
         let size = UVec2::new(8, 4);
         let missing = compare_drawn(&golden, size, ramp, exactly(), false).expect_err("there is none");
-        assert!(missing.contains("no golden file") && missing.contains("STRAIGHTLINE_BLESS=1"), "{missing}");
+        assert!(
+            missing.contains("no golden file") && missing.contains("STRAIGHTLINE_BLESS=1"),
+            "{missing}"
+        );
         compare_drawn(&golden, size, ramp, exactly(), true).expect("it is written");
         compare_drawn(&golden, size, ramp, exactly(), false).expect("it is the same");
         let other = |pixel: IVec2| ramp(pixel) + if pixel == IVec2::new(5, 2) { 0.5 } else { 0.0 };
         let differs = compare_drawn(&golden, size, other, psnr(50.0), false).expect_err("a pixel differs");
-        assert!(differs.contains("1 pixel differs, most at (5, 2)") && differs.contains("ramp.actual.png"), "{differs}");
+        assert!(
+            differs.contains("1 pixel differs, most at (5, 2)") && differs.contains("ramp.actual.png"),
+            "{differs}"
+        );
         compare_drawn(&golden, size, other, psnr(20.0), false).expect("it is alike");
         compare_drawn(&golden, size, other, absolute(0.5).into(), false).expect("it is alike");
         let actual = read_drawn(&folder.join("ramp.actual.png"), true).expect("it is written");
@@ -211,7 +215,10 @@ mod tests {
             ramp(pixel)
         };
         let fails = compare_drawn(&golden, size, failing, exactly(), false).expect_err("an assertion fails");
-        assert!(fails.starts_with("at the pixel (3, 0): ") && fails.contains("too far"), "{fails}");
+        assert!(
+            fails.starts_with("at the pixel (3, 0): ") && fails.contains("too far"),
+            "{fails}"
+        );
         std::fs::write(&golden, b"no picture").expect("it is written");
         let damaged = compare_drawn(&golden, size, ramp, exactly(), false).expect_err("no PNG");
         assert!(damaged.contains("no PNG"), "{damaged}");

@@ -37,7 +37,9 @@ impl Covering<'_> {
         picture: &TestPicture,
         deadline: Instant,
     ) -> Result<(), Box<testing::Failure>> {
-        let PictureTest { file, kernel, settings, .. } = self.drawing;
+        let PictureTest {
+            file, kernel, settings, ..
+        } = self.drawing;
         let images = self.drawing.make_images(picture, deadline)?;
         let mut add = |kernel: &TestKernel, picture: &TestPicture, count: usize| {
             let counts = cover_picture(kernel, picture, &images[..count], deadline);

@@ -64,7 +64,10 @@ impl DeviceRunner {
         }
         let draw = |(stage, name)| {
             let (targets, buffers) = self.bench.all_written(&kernel.compiled, stage, &inputs)?;
-            let texels = targets.first().map(|target| target.texels.as_slice()).unwrap_or_default();
+            let texels = targets
+                .first()
+                .map(|target| target.texels.as_slice())
+                .unwrap_or_default();
             let texels = texels.iter().map(|texel| texel.map(|component| component as f32));
             Ok((name, kernel.read_painted(picture, texels.collect(), &buffers)))
         };

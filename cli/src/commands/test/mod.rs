@@ -16,8 +16,8 @@ use print::Printer;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use straightline_codegen::diagnostic::Errors;
-use straightline_codegen::{Settings, files};
 use straightline_codegen::testing::{self, Coverage, Plan, Runner, Test, TestFile, TestKernel, Verdict, check_test};
+use straightline_codegen::{Settings, files};
 
 /// Result of a test with its duration.
 pub struct Done<'t> {

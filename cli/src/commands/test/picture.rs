@@ -4,12 +4,12 @@ use super::End;
 use super::device::DeviceRunner;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use straightline_codegen::Settings;
 use straightline_codegen::diagnostic::{Code, Diagnostic, Errors, Span};
 use straightline_codegen::shorten;
-use straightline_codegen::Settings;
 use straightline_codegen::testing::{
-    Failure, ImageSource, Painted, Plan, RunnerError, TestFile, TestKernel, TestPicture, interpret_picture, pixel_inputs,
-    report_not_run, report_pixel,
+    Failure, ImageSource, Painted, Plan, RunnerError, TestFile, TestKernel, TestPicture, interpret_picture,
+    pixel_inputs, report_not_run, report_pixel,
 };
 use straightline_kernels::pictures::{Drawn, Mismatch, compare_with_file, picture_path, read_drawn};
 
@@ -93,7 +93,10 @@ impl PictureTest<'_> {
 
     fn report(&self, span: Span, runner: &str, mismatch: &Mismatch) -> Failure {
         let path = &self.kernel.test.path;
-        let bless = format!("`straightline test {} {path} --bless`", shorten(&self.path.display().to_string()));
+        let bless = format!(
+            "`straightline test {} {path} --bless`",
+            shorten(&self.path.display().to_string())
+        );
         let (difference, files) = match mismatch {
             Mismatch::Differs { difference, files, .. } => (difference, files),
             Mismatch::Missing(_) => {
@@ -129,7 +132,11 @@ impl PictureTest<'_> {
 
     /// The error of a file that cannot be used.
     fn unusable(&self, span: Span, error: String, help: &str) -> Failure {
-        self.failure(Diagnostic::error_at(Code::UnreadableFile, span, error).label("of this picture").help(help))
+        self.failure(
+            Diagnostic::error_at(Code::UnreadableFile, span, error)
+                .label("of this picture")
+                .help(help),
+        )
     }
 
     fn failure(&self, error: Diagnostic) -> Failure {

@@ -82,7 +82,12 @@ fn describe_test(file: u32, path: &str, function: &syn::ItemFn) -> Test {
         }
         if !arguments.is_empty() {
             let help = "write a test of its own for each";
-            errors.push(*unsupported(file, &function.sig.ident, "a property and a picture in a test", help));
+            errors.push(*unsupported(
+                file,
+                &function.sig.ident,
+                "a property and a picture in a test",
+                help,
+            ));
         }
     }
     Test {

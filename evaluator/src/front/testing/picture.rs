@@ -193,10 +193,17 @@ fn read_statement(file: u32, statement: &syn::Stmt) -> Refused<Statement<'_>> {
         pattern => (pattern, None),
     };
     if let syn::Expr::Call(call) = &*init.expr
-        && let Some(by) = called(call).filter(|name| ["read_picture", "read_linear", "draw"].iter().any(|known| name == known))
+        && let Some(by) = called(call).filter(|name| {
+            ["read_picture", "read_linear", "draw"]
+                .iter()
+                .any(|known| name == known)
+        })
     {
         let (syn::Pat::Ident(name), Some(ty)) = (pattern, ty) else {
-            let help = format!("write its type: `let image: Texture<Vec4> = {};`", as_written(&init.expr));
+            let help = format!(
+                "write its type: `let image: Texture<Vec4> = {};`",
+                as_written(&init.expr)
+            );
             return refused(local, "a picture without a type", &help);
         };
         if by == "draw" {
@@ -237,7 +244,11 @@ fn read_call(file: u32, function: &syn::ItemFn, call: &syn::ExprCall) -> Refused
         return refused(call, "`assert_picture` with such arguments", help);
     };
     let Some((golden, span)) = text_of(file, name) else {
-        return refused(name, "a golden file whose name is not written out", "write `\"golden.png\"`");
+        return refused(
+            name,
+            "a golden file whose name is not written out",
+            "write `\"golden.png\"`",
+        );
     };
     check_name(file, name, &golden)?;
     let pixels = read_size(file, function, size)?;
@@ -283,10 +294,19 @@ fn check_closure(file: u32, closure: &syn::Expr) -> Refused<()> {
 /// Refuses pictures and samplers inside of other statements.
 fn refuse_words(file: u32, part: &impl ToTokens) -> Refused<()> {
     let words = [
-        ("read_picture", "let image: Texture<Vec4> = read_picture(\"chart.png\");"),
-        ("read_linear", "let normals: Texture<Vec3> = read_linear(\"normals.png\");"),
+        (
+            "read_picture",
+            "let image: Texture<Vec4> = read_picture(\"chart.png\");",
+        ),
+        (
+            "read_linear",
+            "let normals: Texture<Vec3> = read_linear(\"normals.png\");",
+        ),
         ("Sampler", "let linear = Sampler::default();"),
-        ("assert_picture", "assert_picture(\"golden.png\", uvec2(64, 36), |pixel| color(pixel), psnr(50.0));"),
+        (
+            "assert_picture",
+            "assert_picture(\"golden.png\", uvec2(64, 36), |pixel| color(pixel), psnr(50.0));",
+        ),
     ];
     for (word, write) in words {
         if let Some(found) = find_word(part.to_token_stream(), word) {
@@ -301,7 +321,12 @@ fn check_name(file: u32, at: &impl ToTokens, name: &str) -> Refused<()> {
     match name_error(name) {
         Some(reason) => {
             let help = format!("{reason}: name a PNG beside the file, or in a folder below it");
-            Err(unsupported(file, &at.to_token_stream(), "a picture of this name", &help))
+            Err(unsupported(
+                file,
+                &at.to_token_stream(),
+                "a picture of this name",
+                &help,
+            ))
         }
         None => Ok(()),
     }
@@ -346,14 +371,22 @@ fn size_of(function: &syn::ItemFn, expr: &syn::Expr) -> Option<[u32; 2]> {
     if !matches!(&*call.func, syn::Expr::Path(path) if path.path.segments.last()?.ident == "uvec2" || is_new(path)) {
         return None;
     }
-    let numbers = call.args.iter().map(|arg| Some(number_of(arg)?).filter(|n| (0.0..=65536.0).contains(n)));
+    let numbers = call
+        .args
+        .iter()
+        .map(|arg| Some(number_of(arg)?).filter(|n| (0.0..=65536.0).contains(n)));
     let numbers: Vec<u32> = numbers.map(|n| n.map(|n| n as u32)).collect::<Option<_>>()?;
     numbers.try_into().ok()
 }
 
 /// Returns whether a path is `UVec2::new`.
 fn is_new(path: &syn::ExprPath) -> bool {
-    let words: Vec<String> = path.path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+    let words: Vec<String> = path
+        .path
+        .segments
+        .iter()
+        .map(|segment| segment.ident.to_string())
+        .collect();
     matches!(&words[..], [.., of, new] if of == "UVec2" && new == "new")
 }
 
@@ -451,7 +484,10 @@ fn without_borrows(tokens: TokenStream, names: &[String]) -> TokenStream {
                 let is_borrow = |token: &TokenTree| matches!(token, TokenTree::Punct(mark) if mark.as_char() == '&');
                 // Behind a value, `&` is an operator.
                 let operand = out.len().checked_sub(2).map(|before| &out[before]);
-                let is_value = matches!(operand, Some(TokenTree::Ident(_) | TokenTree::Literal(_) | TokenTree::Group(_)));
+                let is_value = matches!(
+                    operand,
+                    Some(TokenTree::Ident(_) | TokenTree::Literal(_) | TokenTree::Group(_))
+                );
                 if out.last().is_some_and(is_borrow) && !is_value && names.iter().any(|known| name == known) {
                     out.pop();
                 }

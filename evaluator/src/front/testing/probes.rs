@@ -64,7 +64,8 @@ impl Inserter<'_> {
             span: token_span(self.file, span),
             kind,
         });
-        let call = syn::parse2(quote_spanned!(brace=> #count(#number))).unwrap_or(syn::Expr::Verbatim(Default::default()));
+        let call =
+            syn::parse2(quote_spanned!(brace=> #count(#number))).unwrap_or(syn::Expr::Verbatim(Default::default()));
         syn::Stmt::Expr(call, Some(syn::Token![;](brace)))
     }
 
@@ -179,13 +180,27 @@ impl VisitMut for Inserter<'_> {
             Some((_, otherwise)) => match &mut **otherwise {
                 syn::Expr::Block(block) => self.visit_side(at, number, 1, &mut block.block),
                 chained => {
-                    let probe = self.probe(at, brace, ProbeKind::Side { branch: number, side: 1 });
+                    let probe = self.probe(
+                        at,
+                        brace,
+                        ProbeKind::Side {
+                            branch: number,
+                            side: 1,
+                        },
+                    );
                     self.visit_expr_mut(chained);
                     Inserter::put_behind(probe, chained);
                 }
             },
             none => {
-                let probe = self.probe(at, brace, ProbeKind::Side { branch: number, side: 1 });
+                let probe = self.probe(
+                    at,
+                    brace,
+                    ProbeKind::Side {
+                        branch: number,
+                        side: 1,
+                    },
+                );
                 let block = syn::ExprBlock {
                     attrs: Vec::new(),
                     label: None,
@@ -246,6 +261,7 @@ impl VisitMut for Inserter<'_> {
 fn is_of_tests(attrs: &[syn::Attribute]) -> bool {
     attrs.iter().any(|attr| {
         let list = attr.meta.require_list().map(|list| list.tokens.to_string());
-        attr.path().is_ident("test") || (attr.path().is_ident("cfg") && list.is_ok_and(|tokens| tokens.trim() == "test"))
+        attr.path().is_ident("test")
+            || (attr.path().is_ident("cfg") && list.is_ok_and(|tokens| tokens.trim() == "test"))
     })
 }
