@@ -6,6 +6,7 @@
 mod arguments;
 mod assertions;
 mod entry;
+mod literals;
 mod picture;
 mod probes;
 mod recorded;
