@@ -39,4 +39,18 @@ mod tests {
     fn a_lens_without_strength_takes_no_light() {
         for_all_in(-0.5..=0.5, |away: Vec2| assert_close(light(away, 0.0), 1.0, ulp(0)));
     }
+
+    #[test]
+    fn a_chart_is_bent_and_split() {
+        let size = uvec2(96, 54);
+        let chart: Texture<Vec4> = draw(size, |pixel| squares(pixel));
+        let linear = Sampler::default();
+        assert_picture("lens.png", size, |pixel| lens(&chart, &linear, 1.0, size, pixel), psnr(50.0));
+    }
+
+    /// White squares with black lines between them.
+    fn squares(pixel: IVec2) -> Vec4 {
+        let is_line = pixel.x % 8 == 0 || pixel.y % 9 == 0;
+        Vec3::splat(if is_line { 0.0 } else { 1.0 }).extend(1.0)
+    }
 }
