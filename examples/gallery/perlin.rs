@@ -62,3 +62,24 @@ pub fn perlin(scale: f32, depth: f32, octaves: i32, pixel: IVec2) -> Vec4 {
     }
     Vec3::splat(0.5 + 0.5 * sum).extend(1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use straightline_kernels::testing::*;
+
+    #[test]
+    fn noise_is_none_on_the_lattice() {
+        for_all_in(-1000..=1000, |corner: IVec3| assert_eq!(noise(corner.as_vec3()), 0.0));
+    }
+
+    #[test]
+    fn noise_is_from_minus_one_to_one() {
+        for_all_in(-100.0..=100.0, |at: Vec3| assert!(noise(at).abs() <= 1.0));
+    }
+
+    #[test]
+    fn octaves_draw_clouds() {
+        assert_picture("golden/perlin.png", uvec2(64, 36), |pixel| perlin(16.0, 0.5, 4, pixel), psnr(45.0));
+    }
+}
