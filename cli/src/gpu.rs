@@ -74,7 +74,8 @@ impl Gpu {
                 & (Features::TIMESTAMP_QUERY
                     | Features::FLOAT32_FILTERABLE
                     | Features::SUBGROUP
-                    | Features::SHADER_F16),
+                    | Features::SHADER_F16
+                    | Features::IMMEDIATES),
             required_limits: adapter.limits(),
             ..Default::default()
         };

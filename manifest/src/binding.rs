@@ -84,6 +84,20 @@ pub enum BindingKind {
     },
 }
 
+/// Uniforms that the host records into its commands: `var<immediate>` in WGSL, push constants in SPIR-V, GLSL 4.50 and HLSL
+/// for Vulkan, root constants in HLSL for Direct3D 12, `setBytes` in Metal. A shader with immediates has the feature
+/// `immediates`, and no uniform buffer but that of a region.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Immediates {
+    /// Name of the variable, as that of a uniform buffer.
+    pub name: String,
+    /// Size in bytes, a multiple of 16, from offset 0.
+    pub size: u32,
+    /// The struct's fields in order of offset.
+    pub fields: Vec<UniformField>,
+}
+
 /// Fields of the uniform buffer [`REGION`]: the rectangle's upper left pixel in the inputs, its size, and its upper left
 /// pixel in the target.
 pub fn region_fields() -> Vec<UniformField> {
@@ -197,6 +211,8 @@ pub enum LanguageKind {
     StorageBuffer,
     /// A uniform buffer.
     UniformBuffer,
+    /// Uniforms in no buffer, as [`Immediates`]: in `hlsl` at a register, in `msl` at the index of a buffer.
+    Immediates,
     /// A uniform that lies in no buffer, or a number that is a parameter.
     Uniform,
     /// A member of the uniform buffer, listed where it has another name in the text.

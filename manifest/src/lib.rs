@@ -28,7 +28,7 @@ mod value;
 mod words;
 
 #[cfg(feature = "json")]
-pub use binding::{Binding, BindingKind, LanguageBinding, LanguageKind, Part, UniformField, region_fields};
+pub use binding::{Binding, BindingKind, Immediates, LanguageBinding, LanguageKind, Part, UniformField, region_fields};
 #[cfg(feature = "json")]
 pub use form::{Form, Origin};
 pub use format::{Component, Format};

@@ -2,7 +2,10 @@
 
 use crate::chain::CHAIN_SCHEMA;
 use crate::source_map::SOURCE_MAP_SCHEMA;
-use crate::{Binding, Form, LanguageBinding, Origin, Output, Override, Precision, Stage, Tuned, ValueType, output};
+use crate::{
+    Binding, BindingKind, Form, Immediates, LanguageBinding, Origin, Output, Override, Precision, Stage, Tuned,
+    UniformField, ValueType, output,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -51,7 +54,7 @@ pub struct Manifest {
     #[serde(default = "one_pixel", skip_serializing_if = "is_one_pixel")]
     pub block: [u32; 2],
     /// Further abilities that the device needs: `subgroup`, quad operations in the shader's stage; `shader-f16`,
-    /// arithmetic in half precision.
+    /// arithmetic in half precision; `immediates`, uniforms in the commands.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub features: Vec<String>,
     /// Interpolated values that the host's vertex shader must output; fragment only. A shader with varyings is drawn in
@@ -62,6 +65,9 @@ pub struct Manifest {
     /// unnecessary is not listed. Together with `outputs` this is the bind group layout, in WebGPU's words, and all
     /// that WGSL and SPIR-V bind.
     pub bindings: Vec<Binding>,
+    /// The uniforms, if they lie in no buffer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub immediates: Option<Immediates>,
     /// Options that the host may set when it creates the pipeline, in the order of the kernel's options. One that the
     /// shader does not read is not listed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -217,6 +223,18 @@ impl Manifest {
         let mut text = serde_json::to_string_pretty(self).expect("a manifest is plain data");
         text.push('\n');
         text
+    }
+
+    /// Fields and size in bytes of the kernel's uniforms, in a buffer or as immediates. The region's are not among them.
+    pub fn uniform_block(&self) -> Option<(&[UniformField], u32)> {
+        let mut bound = self.bindings.iter().filter_map(|binding| match &binding.kind {
+            BindingKind::Uniform { fields, size, .. } if !binding.is_region() => Some((&fields[..], *size)),
+            _ => None,
+        });
+        let immediates = self.immediates.as_ref();
+        bound
+            .next()
+            .or_else(|| immediates.map(|all| (&all.fields[..], all.size)))
     }
 
     /// The binding called `name`.

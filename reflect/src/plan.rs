@@ -214,6 +214,15 @@ fn find_variable<'m>(
     }
 }
 
+/// The variable of immediates, which must be called `name`, as the text spells it. A module has one at most.
+fn find_immediates<'m>(spelling: &Spelling<'_>, module: &'m Module, name: &str) -> Result<&'m GlobalVariable, String> {
+    let name = spelling.of_immediates(name);
+    let mut variables = module.global_variables.iter().map(|(_, variable)| variable);
+    let found =
+        variables.find(|variable| variable.space == AddressSpace::Immediate && variable.name.as_deref() == Some(name));
+    found.ok_or_else(|| format!("it has no immediates `{name}`"))
+}
+
 fn check_input(spelling: &Spelling<'_>, module: &Module, plan: &InputPlan) -> Result<(), String> {
     let variable = find_variable(spelling, module, &plan.name, (plan.group, plan.binding))?;
     let found = &module.types[variable.ty].inner;
@@ -335,13 +344,24 @@ fn check_storage(
 }
 
 fn check_uniform(spelling: &Spelling<'_>, module: &Module, plan: &UniformPlan) -> Result<(), String> {
-    let variable = find_variable(spelling, module, &plan.name, (plan.group, plan.binding))?;
     let name = &plan.name;
+    let (variable, space, word) = match plan.place {
+        Some(place) => (
+            find_variable(spelling, module, name, place)?,
+            AddressSpace::Uniform,
+            "uniform",
+        ),
+        None => (
+            find_immediates(spelling, module, name)?,
+            AddressSpace::Immediate,
+            "immediate",
+        ),
+    };
     let TypeInner::Struct { members, span } = &module.types[variable.ty].inner else {
         return Err(format!("`{name}` is not a struct"));
     };
-    if variable.space != AddressSpace::Uniform {
-        return Err(format!("`{name}` is not a `var<uniform>`"));
+    if variable.space != space {
+        return Err(format!("`{name}` is not a `var<{word}>`"));
     }
     if *span > plan.size {
         return Err(format!("`{name}` takes {span} bytes, the manifest says {}", plan.size));
@@ -396,13 +416,16 @@ pub fn is_type(inner: &TypeInner, ty: ValueType) -> bool {
 /// Every resource of the shader is in the manifest.
 fn nothing_else(plan: &Plan, module: &Module) -> Result<(), String> {
     let mut known: Vec<(u32, u32)> = plan.inputs.iter().map(|i| (i.group, i.binding)).collect();
-    known.extend(plan.uniform_structs().map(|u| (u.group, u.binding)));
+    known.extend(plan.uniform_structs().filter_map(|uniform| uniform.place));
     known.extend(plan.outputs.iter().filter_map(|output| output.place));
     for (_, variable) in module.global_variables.iter() {
+        let name = variable.name.as_deref().unwrap_or("<unnamed>");
+        if variable.space == AddressSpace::Immediate && plan.immediate_size() == 0 {
+            return Err(format!("it uses the immediates `{name}`, which the manifest lacks"));
+        }
         if let Some(place) = &variable.binding
             && !known.contains(&(place.group, place.binding))
         {
-            let name = variable.name.as_deref().unwrap_or("<unnamed>");
             let (group, binding) = (place.group, place.binding);
             return Err(format!(
                 "it uses `{name}` at @group({group}) @binding({binding}), which the manifest lacks"

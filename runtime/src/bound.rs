@@ -174,6 +174,8 @@ impl Bound {
     /// As with any `write_buffer`, all encoders of one submission see the last value written before it. Other [`Bound`]s of
     /// the same pass keep their values. Numbers, vectors and matrices cause no allocation here.
     ///
+    /// Immediates are recorded: a value holds from the next [`encode`](Self::encode) on, and `queue` is not used.
+    ///
     /// # Errors
     ///
     /// [`Error::UnknownUniform`], or [`Error::UniformType`] for a value of another type. Nothing has been written then.
@@ -254,6 +256,7 @@ impl Bound {
         for (index, group) in &self.groups {
             pass.set_bind_group(*index, group, &[]);
         }
+        self.uniforms.record_immediates(|bytes| pass.set_immediates(0, bytes));
         pass.dispatch_workgroups(across, down, 1);
     }
 
@@ -262,6 +265,7 @@ impl Bound {
         for (index, group) in &self.groups {
             pass.set_bind_group(*index, group, &[]);
         }
+        self.uniforms.record_immediates(|bytes| pass.set_immediates(0, bytes));
         // Any other shader fills all of its targets.
         if self.plan.region.is_some() {
             let ([x, y], [width, height]) = (self.rectangle.place, self.rectangle.size);

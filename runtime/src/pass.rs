@@ -143,18 +143,29 @@ pub(crate) fn check_features(device: &Device, plan: &Plan) -> Result<(), Error> 
             "subgroup" => (
                 wgpu::Features::SUBGROUP,
                 "it sends messages by quad operations, and the device was created without the feature SUBGROUP: ask for \
-                 that, or generate the shader with the transport `derivatives` or `block`",
+                 that, or generate the shader with the transport `derivatives` or `block`"
+                    .to_owned(),
             ),
             "shader-f16" => (
                 wgpu::Features::SHADER_F16,
                 "it computes in half precision, and the device was created without the feature SHADER_F16: ask for that \
                  in `DeviceDescriptor::required_features` where the adapter has it, or generate the shader with the \
-                 precision `f32`",
+                 precision `f32`"
+                    .to_owned(),
             ),
+            "immediates" => {
+                let size = plan.immediate_size();
+                let why = format!(
+                    "its uniforms are {size} bytes of immediates, and the device was created without the feature IMMEDIATES: ask \
+                     for that in `DeviceDescriptor::required_features`, and for `max_immediate_size: {size}` in `required_limits`, \
+                     or generate the shader with `parameters` as `uniform`"
+                );
+                (wgpu::Features::IMMEDIATES, why)
+            }
             _ => return Err(refused(format!("it needs `{feature}`, which this crate does not know"))),
         };
         if !device.features().contains(needed) {
-            return Err(refused(why.to_owned()));
+            return Err(refused(why));
         }
     }
     Ok(())

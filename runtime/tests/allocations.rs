@@ -4,8 +4,8 @@ mod common;
 
 use allocation_counter::{AllocationInfo, measure};
 use common::chains::{make_of, pass, picture, plan, sizes};
-use common::{COPY, Fixture, Gpu, STAGES, Stage, view};
-use straightline_runtime::{Bound, Draw, DrawOptions, Pass, wgpu};
+use common::{COPY, Fixture, Gpu, STAGES, Stage, tinted, view};
+use straightline_runtime::{BindOptions, Bound, Draw, DrawOptions, Pass, wgpu};
 use wgpu::{TextureFormat, TextureUsages, TextureView};
 
 const SIZE: [u32; 2] = [16, 8];
@@ -227,6 +227,57 @@ fn a_frame_allocates_what_wgpu_does() {
         },
         |encoder| handwritten.encode(encoder),
         "drawn",
+    );
+}
+
+/// The bytes of immediates are kept: recording and setting them allocates nothing beside wgpu.
+#[test]
+fn immediates_allocate_what_wgpu_does() {
+    let gpu = Gpu::with_immediates(32);
+    let color = view(&gpu.texture(SIZE, 1, TextureFormat::Rgba8Unorm, TextureUsages::TEXTURE_BINDING));
+    let target = view(&gpu.target(SIZE));
+    let Fixture { manifest, wgsl } = tinted(Stage::Compute);
+    let pass = Pass::from_json(&gpu.device, &manifest, &wgsl).expect("a pass");
+    let options = BindOptions::default().uniform("offset", [0.0; 4]);
+    let bound = pass
+        .bind_with(&[("color", &color)], &target, &options)
+        .expect("to bind");
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+    });
+    let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: None,
+        layout: None,
+        module: &module,
+        entry_point: None,
+        compilation_options: Default::default(),
+        cache: None,
+    });
+    let entry = |binding, view| wgpu::BindGroupEntry {
+        binding,
+        resource: wgpu::BindingResource::TextureView(view),
+    };
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &[entry(0, &color), entry(15, &target)],
+    });
+    same(
+        &gpu,
+        |encoder| {
+            bound.write_uniform(&gpu.queue, "scale", 0.5_f32).expect("a uniform");
+            bound.encode(encoder);
+        },
+        |encoder| {
+            compute(encoder, |pass| {
+                pass.set_pipeline(&pipeline);
+                pass.set_bind_group(0, &group, &[]);
+                pass.set_immediates(0, &[0; 32]);
+                pass.dispatch_workgroups(SIZE[0] / 8, SIZE[1] / 8, 1);
+            });
+        },
+        "with immediates",
     );
 }
 

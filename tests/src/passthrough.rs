@@ -24,12 +24,13 @@ pub fn bench() -> Result<Bench, String> {
     let adapter = adapter.map_err(|e| {
         format!("this test needs a Vulkan adapter; without a GPU install Debian's mesa-vulkan-drivers: {e}")
     })?;
-    let wanted = Features::FLOAT32_FILTERABLE | Features::SUBGROUP | Features::SHADER_F16;
+    let wanted = Features::FLOAT32_FILTERABLE | Features::SUBGROUP | Features::SHADER_F16 | Features::IMMEDIATES;
     let descriptor = wgpu::DeviceDescriptor {
         required_features: Features::PASSTHROUGH_SHADERS | (adapter.features() & wanted),
-        // Several targets of full floats are more than WebGPU promises.
+        // Several targets of full floats, and immediates, are more than WebGPU promises.
         required_limits: wgpu::Limits {
             max_color_attachment_bytes_per_sample: adapter.limits().max_color_attachment_bytes_per_sample,
+            max_immediate_size: adapter.limits().max_immediate_size,
             ..wgpu::Limits::default()
         },
         ..Default::default()

@@ -29,7 +29,7 @@ impl Bench {
     ///
     /// If something is missing, or the device refuses it.
     pub fn upload_for_chain(&self, emitted: &EmittedChain, inputs: &Inputs) -> Result<Uploaded, ExecuteError> {
-        self.upload_bindings(&emitted.bindings(), inputs, &Uploaded::default())
+        self.upload_bindings((&emitted.bindings(), None), inputs, &Uploaded::default())
     }
 
     /// A chain with its inputs, targets and the textures between its passes.

@@ -8,7 +8,9 @@ use glam::{UVec2, Vec4, uvec2};
 use straightline_codegen::emit::Emitted;
 use straightline_codegen::{Compiled, EmitOptions, Format, Precision, Stage};
 use straightline_kernels::prelude::Frame;
-use straightline_manifest::{Binding, BindingKind, BufferType, Element, Manifest, SamplerType, UniformField};
+use straightline_manifest::{
+    Binding, BindingKind, BufferType, Element, Immediates, Manifest, SamplerType, UniformField,
+};
 use straightline_runtime::{
     BindOptions, Bound, BoundDraw, Draw, Error as RuntimeError, Pass, PassOptions, Region, Resource, Targets,
     UniformValue,
@@ -235,13 +237,13 @@ impl Bench {
         inputs: &Inputs,
         there: &Uploaded,
     ) -> Result<Uploaded, ExecuteError> {
-        self.upload_bindings(&manifest.bindings, inputs, there)
+        self.upload_bindings((&manifest.bindings, manifest.immediates.as_ref()), inputs, there)
     }
 
     /// As [`upload_onto`](Self::upload_onto), for bindings by themselves.
     pub(super) fn upload_bindings(
         &self,
-        bindings: &[Binding],
+        (bindings, immediates): (&[Binding], Option<&Immediates>),
         inputs: &Inputs,
         there: &Uploaded,
     ) -> Result<Uploaded, ExecuteError> {
@@ -256,7 +258,7 @@ impl Bench {
         }
         Ok(Uploaded {
             resources,
-            uniforms: uniform_values(bindings, inputs),
+            uniforms: uniform_values(bindings, immediates, inputs),
         })
     }
 
@@ -336,7 +338,7 @@ impl Bench {
         }
         Ok(Uploaded {
             resources,
-            uniforms: uniform_values(&manifest.bindings, inputs),
+            uniforms: uniform_values(&manifest.bindings, manifest.immediates.as_ref(), inputs),
         })
     }
 

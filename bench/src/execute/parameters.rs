@@ -1,7 +1,7 @@
 //! Values of inputs as a pass takes them: uniforms, and overrides of its pipeline.
 
 use super::{convert, find_entry};
-use straightline_manifest::{Binding, BindingKind, Manifest, OverrideType};
+use straightline_manifest::{Binding, BindingKind, Immediates, Manifest, OverrideType};
 use straightline_runtime::{PassOptions, UniformValue};
 use straightline_scene::inputs::Inputs;
 
@@ -20,19 +20,22 @@ pub fn override_options(manifest: &Manifest, inputs: &Inputs) -> PassOptions {
 }
 
 /// The uniforms of a shader that `inputs` say; of the region's none, which is stated with each that is bound.
-pub fn uniform_values(bindings: &[Binding], inputs: &Inputs) -> Vec<(String, UniformValue)> {
+pub fn uniform_values(
+    bindings: &[Binding],
+    immediates: Option<&Immediates>,
+    inputs: &Inputs,
+) -> Vec<(String, UniformValue)> {
     let mut uniforms = Vec::new();
-    for binding in bindings {
-        if let BindingKind::Uniform { fields, .. } = &binding.kind
-            && !binding.is_region()
-        {
-            for field in fields {
-                if field.frame_size {
-                    uniforms.push((field.name.clone(), UniformValue::from(inputs.size.to_array())));
-                } else if let Some(numbers) = find_entry(&inputs.uniforms, &field.name) {
-                    uniforms.push((field.name.clone(), convert::uniform_value(field.ty, numbers)));
-                }
-            }
+    let bound = bindings.iter().filter(|binding| !binding.is_region());
+    let bound = bound.filter_map(|binding| match &binding.kind {
+        BindingKind::Uniform { fields, .. } => Some(fields),
+        _ => None,
+    });
+    for field in bound.chain(immediates.map(|immediates| &immediates.fields)).flatten() {
+        if field.frame_size {
+            uniforms.push((field.name.clone(), UniformValue::from(inputs.size.to_array())));
+        } else if let Some(numbers) = find_entry(&inputs.uniforms, &field.name) {
+            uniforms.push((field.name.clone(), convert::uniform_value(field.ty, numbers)));
         }
     }
     uniforms

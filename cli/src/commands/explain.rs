@@ -120,7 +120,9 @@ struct Bound {
 }
 
 fn bound_names(manifest: &Manifest) -> Bound {
-    let (mut inputs, mut uniforms) = (Vec::new(), Vec::new());
+    let immediates = manifest.immediates.iter().flat_map(|immediates| &immediates.fields);
+    let mut uniforms: Vec<String> = immediates.map(|field| field.name.clone()).collect();
+    let mut inputs = Vec::new();
     for binding in &manifest.bindings {
         match &binding.kind {
             BindingKind::Uniform { fields, .. } => uniforms.extend(fields.iter().map(|field| field.name.clone())),

@@ -60,13 +60,11 @@ impl EmittedChain {
     fn uniform_fields(&self) -> Vec<UniformField> {
         let mut all: Vec<UniformField> = Vec::new();
         for pass in &*self.plan.passes {
-            for binding in &self.shaders[&*pass.shader].emitted.manifest.bindings {
-                if let (BindingKind::Uniform { fields, .. }, false) = (&binding.kind, binding.is_region()) {
-                    let own = fields.iter().filter(|field| !field.frame_size);
-                    let new = own.filter(|field| all.iter().all(|known| known.name != field.name));
-                    let new: Vec<UniformField> = new.cloned().collect();
-                    all.extend(new);
-                }
+            if let Some((fields, _)) = self.shaders[&*pass.shader].emitted.manifest.uniform_block() {
+                let own = fields.iter().filter(|field| !field.frame_size);
+                let new = own.filter(|field| all.iter().all(|known| known.name != field.name));
+                let new: Vec<UniformField> = new.cloned().collect();
+                all.extend(new);
             }
         }
         all

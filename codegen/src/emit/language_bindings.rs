@@ -41,8 +41,7 @@ impl Resources {
     fn list_renamed(&self, original: &Resources, list: &mut List) {
         self.for_each_binding(original, |kind, _, name, of, binding| {
             if name != of {
-                let bound = list.add(kind, name, Some(of));
-                (bound.group, bound.binding) = (Some(self.places.bind_group()), Some(binding));
+                set_number(list.add(kind, name, Some(of)), self.places.bind_group(), binding);
             }
         });
         if self.options.stage == Stage::Fragment {
@@ -66,14 +65,13 @@ impl Resources {
 
     /// Vulkan's GLSL: numbers in a descriptor set.
     fn list_descriptor_sets(&self, original: &Resources, list: &mut List) {
-        let group = Some(self.places.bind_group());
+        let group = self.places.bind_group();
         self.for_each_binding(original, |kind, _, name, of, binding| {
-            let bound = list.add(kind, name, Some(of));
-            (bound.group, bound.binding) = (group, Some(binding));
+            set_number(list.add(kind, name, Some(of)), group, binding);
         });
         if !self.read.is_empty() {
             let bound = list.add(Kind::Sampler, SAMPLER, None);
-            (bound.group, bound.binding) = (group, Some(self.sampler_binding()));
+            set_number(bound, group, self.sampler_binding());
             bound.what = Some("any sampler: texels are named with one, and not filtered".to_owned());
         }
         self.list_varyings(list, original, true);
@@ -198,11 +196,22 @@ impl Resources {
             }
         }
         if let Some(binding) = self.uniform_binding() {
-            see(Kind::UniformBuffer, 'b', UNIFORMS, &self.own_names.uniforms, binding);
+            let kind = match self.has_immediates() {
+                true => Kind::Immediates,
+                false => Kind::UniformBuffer,
+            };
+            see(kind, 'b', UNIFORMS, &self.own_names.uniforms, binding);
         }
         if let Some(binding) = self.region_binding() {
             see(Kind::UniformBuffer, 'b', REGION, &self.own_names.region, binding);
         }
+    }
+}
+
+/// Sets descriptor set and number, which immediates do not have.
+fn set_number(bound: &mut LanguageBinding, group: u32, binding: u32) {
+    if bound.kind != Kind::Immediates {
+        (bound.group, bound.binding) = (Some(group), Some(binding));
     }
 }
 

@@ -7,14 +7,18 @@ use super::resources::{BoundOverride, BoundTexture, Resources};
 use crate::compiled::Compiled;
 use straightline_evaluator::ir::{Element, Field, Scalar, Texture, TextureKind};
 use straightline_manifest::{
-    Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Manifest, Output, Override, OverrideType,
-    REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
+    Access, Binding, BindingKind, BufferType, Counts, Dimension, Extent, Immediates, Manifest, Output, Override,
+    OverrideType, REGION_SIZE, SCHEMA, SampleType, SamplerType, Stage, UniformField, ViewDimension, region_fields,
 };
 
 impl Resources {
     /// Optional device features that the shader needs.
     fn device_features(&self) -> Vec<String> {
-        let features = [(self.subgroups, "subgroup"), (self.half, "shader-f16")];
+        let features = [
+            (self.subgroups, "subgroup"),
+            (self.half, "shader-f16"),
+            (self.has_immediates(), "immediates"),
+        ];
         let needed = features.into_iter().filter(|(needed, _)| *needed);
         needed.map(|(_, name)| name.to_owned()).collect()
     }
@@ -67,7 +71,8 @@ impl Resources {
             };
             add(*binding, &bound.name, BindingKind::Sampler { sampler });
         }
-        if let Some(binding) = self.uniform_binding() {
+        let is_immediate = self.has_immediates();
+        if let Some(binding) = self.uniform_binding().filter(|_| !is_immediate) {
             bindings.push(Binding {
                 group,
                 binding,
@@ -122,6 +127,11 @@ impl Resources {
             features: self.device_features(),
             varyings: self.manifest_varyings().collect(),
             bindings,
+            immediates: is_immediate.then(|| Immediates {
+                name: self.own_names.uniforms.clone(),
+                size: self.uniform_size,
+                fields: self.fields.clone(),
+            }),
             overrides: self
                 .overrides
                 .iter()

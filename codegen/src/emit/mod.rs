@@ -39,7 +39,7 @@ mod translate;
 mod variables;
 mod words;
 
-pub use crate::spec::{DebugInfo, EmitOptions, Register, Target, Texels};
+pub use crate::spec::{DebugInfo, EmitOptions, Parameters, Register, Target, Texels};
 
 use crate::compiled::Compiled;
 use refusal::Refusal;

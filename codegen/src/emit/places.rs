@@ -3,7 +3,7 @@
 use super::refusal::Refusal;
 use crate::spec::EmitOptions;
 use crate::spec::Target;
-use crate::spec::{LAST_BINDING, LAST_GROUP, Register};
+use crate::spec::{LAST_BINDING, LAST_GROUP, Parameters, Register};
 use std::collections::BTreeMap;
 use straightline_evaluator::shorten;
 use straightline_evaluator::suggest_name;
@@ -225,7 +225,8 @@ fn no_places(options: &EmitOptions) -> Option<String> {
         .first()
         .map(|(name, _)| format!("a register of `{}`", shorten(name)));
     let group = (options.group != 0).then(|| format!("the bind group {}", options.group));
-    binding.or(register).or(group)
+    let immediate = (options.parameters == Parameters::Immediate).then(|| "`parameters` as `immediate`".to_owned());
+    binding.or(register).or(group).or(immediate)
 }
 
 /// Returns the error about a name that is not bound, and the remedy.

@@ -10,7 +10,7 @@ use super::places::{Named, Places};
 use super::refusal::Refusal;
 use super::words::free_name;
 use crate::compiled::Compiled;
-use crate::spec::Target;
+use crate::spec::{Parameters, Target};
 use std::collections::{BTreeMap, BTreeSet};
 use straightline_evaluator::diagnostic::Code;
 use straightline_evaluator::ir::{
@@ -323,9 +323,15 @@ impl Resources {
         if compute {
             all_bound.extend(given.iter().map(|name| named('u', name)));
         }
+        let immediate = options.parameters == Parameters::Immediate && !fields.is_empty();
+        if immediate {
+            check_immediates(kernel, options, &own_names.uniforms, uniform_size)?;
+        }
+        // Immediates have a number in HLSL and MSL alone, which leaves no gap between the others.
         let own = [
-            (!fields.is_empty(), 'b', &own_names.uniforms),
+            (!fields.is_empty() && !immediate, 'b', &own_names.uniforms),
             (options.region, 'b', &own_names.region),
+            (immediate, 'b', &own_names.uniforms),
             (
                 !read.is_empty() && options.targets.contains(&Target::Glsl450),
                 's',
@@ -533,9 +539,14 @@ impl Resources {
             })
     }
 
-    /// Returns the binding number of the uniform buffer, if there is one.
+    /// Returns the binding number of the uniform buffer, if there is one; of immediates the number in HLSL and MSL.
     pub fn uniform_binding(&self) -> Option<u32> {
         (!self.fields.is_empty()).then(|| self.places.binding_number(&self.own_names.uniforms))
+    }
+
+    /// Returns whether the uniforms are immediates.
+    pub fn has_immediates(&self) -> bool {
+        self.options.parameters == Parameters::Immediate && !self.fields.is_empty()
     }
 
     /// Returns the binding number of the region's uniform buffer, if there is one.
@@ -595,6 +606,30 @@ impl Resources {
             .iter()
             .find(|bound| bound.index == texture)
             .map(|bound| bound.binding)
+    }
+}
+
+/// Checks that uniforms of `size` bytes, called `name`, can be immediates.
+fn check_immediates(kernel: &str, options: &EmitOptions, name: &str, size: u32) -> Result<(), Refusal> {
+    let most = Parameters::MOST_IMMEDIATE_BYTES;
+    if size > most {
+        let what = format!("its uniforms take {size} bytes, and immediates {most} at most");
+        return Err(Refusal::invalid_binding(
+            kernel,
+            &what,
+            "leave `parameters` at `uniform`, or make uniforms options with constants",
+        ));
+    }
+    match options.bindings.iter().find(|(bound, _)| bound == name) {
+        Some((_, number)) => {
+            let what = format!("the binding number {number} is given to `{name}`, and immediates have none");
+            Err(Refusal::invalid_binding(
+                kernel,
+                &what,
+                "leave the number out, or leave `parameters` at `uniform`",
+            ))
+        }
+        None => Ok(()),
     }
 }
 

@@ -136,7 +136,8 @@ impl<'g> Module<'g> {
             .read_buffers
             .iter()
             .map(|(k, binding)| (*binding, resources.is_written(*k)));
-        let uniforms = [resources.uniform_binding(), resources.region_binding()];
+        let own = resources.uniform_binding();
+        let uniforms = [own.filter(|_| !resources.has_immediates()), resources.region_binding()];
         let uniforms = uniforms.into_iter().flatten().map(|binding| (binding, false));
         for (binding, mutable) in buffers.chain(uniforms) {
             let buffer = Some(self.msl_slot("buffer", binding, LAST_BUFFER)?);
@@ -148,6 +149,9 @@ impl<'g> Module<'g> {
                     ..Default::default()
                 },
             );
+        }
+        if let Some(binding) = own.filter(|_| resources.has_immediates()) {
+            slots.immediates_buffer = Some(self.msl_slot("buffer", binding, LAST_BUFFER)?);
         }
         if !resources.read_buffers.is_empty() {
             // A Metal shader cannot query a buffer's length: the host writes the lengths to this buffer.
@@ -237,7 +241,7 @@ fn naga_stage(stage: Stage) -> naga::ShaderStage {
 fn validate_module(module: &naga::Module, text: &str) -> Result<ModuleInfo, String> {
     let mut validator = Validator::new(
         ValidationFlags::all(),
-        Capabilities::SUBGROUP | Capabilities::SHADER_FLOAT16,
+        Capabilities::SUBGROUP | Capabilities::SHADER_FLOAT16 | Capabilities::IMMEDIATES,
     );
     validator.validate(module).map_err(|error| error.emit_to_string(text))
 }

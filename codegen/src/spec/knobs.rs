@@ -3,7 +3,7 @@
 
 use super::declare::knobs;
 use super::value::KnobValue;
-use super::{DebugInfo, KernelConfig, Knob, Part, Register, ShaderSpec, Target, Texels};
+use super::{DebugInfo, KernelConfig, Knob, Parameters, Part, Register, ShaderSpec, Target, Texels};
 use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::time::Duration;
@@ -157,6 +157,12 @@ knobs! {
         registers: Vec<(String, Register)> = Vec::new(), "register" ["NAME=REGISTER"],
             register(name: &str, register: Register) |registers| registers.push((name.to_owned(), register)),
             example ("color", "t3".parse().expect("a register"));
+        /// Address space of the uniforms: `uniform` puts them into a buffer, `immediate` into the commands, up to 128 bytes.
+        /// These are immediates in WebGPU, push constants in Vulkan and root constants in Direct3D 12; GLSL for OpenGL has
+        /// loose uniforms in both cases. For whole shaders.
+        parameters: Parameters = Parameters::Uniform, "parameters" ["SPACE"],
+            parameters(space: Parameters) |chosen| *chosen = space,
+            example (Parameters::Immediate);
         /// Begin WGSL with quad operations with `enable subgroups;`, which browsers require and wgpu rejects.
         enable_subgroups: bool = false, "enable-subgroups",
             enable_subgroups(enable: bool) |enabled| *enabled = enable,

@@ -1,6 +1,6 @@
 //! Values of knobs as text: the spelling of the command line, `engine.toml` and the page's messages.
 
-use super::{DebugInfo, Register, Target, Texels};
+use super::{DebugInfo, Parameters, Register, Target, Texels};
 use std::collections::BTreeSet;
 use std::time::Duration;
 use straightline_evaluator::policy::{Branches, LoopPolicy, Math, ReadOrder, Share, Transport, Unroll};
@@ -61,7 +61,8 @@ macro_rules! spelled {
 }
 
 spelled!(
-    Unroll, Branches, ReadOrder, Share, Math, Transport, Stage, Form, Format, Origin, Precision, Texels, DebugInfo
+    Unroll, Branches, ReadOrder, Share, Math, Transport, Stage, Form, Format, Origin, Precision, Texels, DebugInfo,
+    Parameters
 );
 
 /// An optional value.

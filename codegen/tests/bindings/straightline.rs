@@ -388,8 +388,7 @@ pub mod all {
                     &[
                         UniformPlan {
                             name: Borrowed("parameters"),
-                            group: 0,
-                            binding: 9,
+                            place: Some((0, 9)),
                             size: 16,
                             fields: Borrowed(
                                 &[
@@ -853,8 +852,7 @@ pub mod tile {
                     &[
                         UniformPlan {
                             name: Borrowed("parameters"),
-                            group: 1,
-                            binding: 9,
+                            place: Some((1, 9)),
                             size: 16,
                             fields: Borrowed(
                                 &[
@@ -873,8 +871,7 @@ pub mod tile {
                 ),
                 region: Some(UniformPlan {
                     name: Borrowed("region"),
-                    group: 1,
-                    binding: 10,
+                    place: Some((1, 10)),
                     size: 32,
                     fields: Borrowed(
                         &[
@@ -1335,8 +1332,7 @@ pub mod graded {
                     &[
                         UniformPlan {
                             name: Borrowed("parameters"),
-                            group: 0,
-                            binding: 2,
+                            place: Some((0, 2)),
                             size: 128,
                             fields: Borrowed(
                                 &[
@@ -1740,8 +1736,7 @@ pub mod drawn {
                     &[
                         UniformPlan {
                             name: Borrowed("parameters"),
-                            group: 0,
-                            binding: 2,
+                            place: Some((0, 2)),
                             size: 16,
                             fields: Borrowed(
                                 &[
@@ -1954,6 +1949,356 @@ pub mod several {
                             name: Borrowed("level"),
                             place: None,
                             format: Format::R32Float,
+                            tile: None,
+                        },
+                    ],
+                ),
+            },
+        )
+    };
+}
+/// A picture in the light of two colours, whose weights are set with every frame.
+///
+/// Generated; loops unrolled: `full`.
+#[allow(
+    dead_code,
+    non_camel_case_types,
+    non_snake_case,
+    clippy::trivially_copy_pass_by_ref
+)]
+pub mod lit {
+    use straightline_runtime::{Error, Resource, wgpu};
+    /// The shader.
+    pub const WGSL: &str = include_str!("lit.wgsl");
+    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    pub const MANIFEST: &str = include_str!("lit.json");
+    /// Name of the entry point.
+    pub const ENTRY_POINT: &str = "lit_kernel";
+    /// Invocations in a workgroup.
+    pub const WORKGROUP_SIZE: [u32; 3] = [16, 16, 1];
+    /// Layout of bind group 0, for a custom pipeline.
+    pub const BIND_GROUP_LAYOUT: wgpu::BindGroupLayoutDescriptor<'static> = wgpu::BindGroupLayoutDescriptor {
+        label: Some("lit"),
+        entries: &[
+            wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float {
+                        filterable: false,
+                    },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                count: None,
+            },
+            wgpu::BindGroupLayoutEntry {
+                binding: 1,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::StorageTexture {
+                    access: wgpu::StorageTextureAccess::WriteOnly,
+                    format: wgpu::TextureFormat::Rgba32Float,
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                },
+                count: None,
+            },
+        ],
+    };
+    /// Inputs of the shader.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Inputs<'a> {
+        /// A 2-D texture of the target's size, of a float format with at least 3 components.
+        pub color: &'a wgpu::TextureView,
+    }
+    /// Values that are set at run time, as they lie in the shader's immediates.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Parameters {
+        /// `near` of the kernel.
+        pub near: [f32; 3],
+        /// `weight` of the kernel.
+        pub weight: f32,
+        /// `turn_x_axis` of the kernel.
+        pub turn_x_axis: [f32; 2],
+        /// `turn_y_axis` of the kernel.
+        pub turn_y_axis: [f32; 2],
+    }
+    const _: () = {
+        assert!(core::mem::offset_of!(Parameters, near) == 0);
+        assert!(core::mem::offset_of!(Parameters, weight) == 12);
+        assert!(core::mem::offset_of!(Parameters, turn_x_axis) == 16);
+        assert!(core::mem::offset_of!(Parameters, turn_y_axis) == 24);
+        assert!(core::mem::size_of:: < Parameters > () == 32);
+    };
+    impl Parameters {
+        /// All zeros, as a base for setting single values by name: `Self { name: value, ..Self::ZERO }`.
+        pub const ZERO: Self = Self {
+            near: [0.0; 3],
+            weight: 0.0,
+            turn_x_axis: [0.0; 2],
+            turn_y_axis: [0.0; 2],
+        };
+    }
+    impl Parameters {
+        /// All values, in order.
+        #[must_use]
+        pub const fn new(
+            near: [f32; 3],
+            weight: f32,
+            turn_x_axis: [f32; 2],
+            turn_y_axis: [f32; 2],
+        ) -> Self {
+            Self {
+                near,
+                weight,
+                turn_x_axis,
+                turn_y_axis,
+            }
+        }
+    }
+    impl Parameters {
+        /// Returns the bytes of the values in the buffer's layout.
+        #[must_use]
+        pub fn to_bytes(self) -> [u8; 32] {
+            let mut bytes = [0; 32];
+            for (place, lane) in bytes[0..12].chunks_exact_mut(4).zip(self.near) {
+                place.copy_from_slice(&lane.to_le_bytes());
+            }
+            bytes[12..16].copy_from_slice(&self.weight.to_le_bytes());
+            for (place, lane) in bytes[16..24].chunks_exact_mut(4).zip(self.turn_x_axis)
+            {
+                place.copy_from_slice(&lane.to_le_bytes());
+            }
+            for (place, lane) in bytes[24..32].chunks_exact_mut(4).zip(self.turn_y_axis)
+            {
+                place.copy_from_slice(&lane.to_le_bytes());
+            }
+            bytes
+        }
+    }
+    impl Parameters {
+        /// Replaces `near`.
+        #[must_use]
+        pub fn with_near(mut self, value: impl Into<[f32; 3]>) -> Self {
+            let value: [f32; 3] = value.into();
+            self.near = value;
+            self
+        }
+        /// Replaces `weight`.
+        #[must_use]
+        pub fn with_weight(mut self, value: f32) -> Self {
+            self.weight = value;
+            self
+        }
+        /// Replaces `turn`.
+        /// Columns first.
+        #[must_use]
+        pub fn with_turn(mut self, value: [[f32; 2]; 2]) -> Self {
+            self.turn_x_axis = value[0];
+            self.turn_y_axis = value[1];
+            self
+        }
+    }
+    /// The shader on a device: create it once, and bind it to its inputs and outputs.
+    #[derive(Debug)]
+    pub struct Pass(straightline_runtime::Pass);
+    impl Pass {
+        /// Compiles the shader.
+        ///
+        /// # Errors
+        ///
+        /// If the device cannot run it or is lost.
+        pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
+            Self::with_options(device, &straightline_runtime::PassOptions::default())
+        }
+        /// Compiles the shader with options, for example for a target of another format.
+        ///
+        /// # Errors
+        ///
+        /// Errors of `new`, and options that the shader does not have.
+        pub fn with_options(
+            device: &wgpu::Device,
+            options: &straightline_runtime::PassOptions,
+        ) -> Result<Self, Error> {
+            straightline_runtime::Pass::from_shader(device, &SHADER, options).map(Self)
+        }
+        /// Binds the shader: from `inputs` to the target.
+        ///
+        /// # Errors
+        ///
+        /// If an input or the target does not fit, naming it.
+        pub fn bind(
+            &self,
+            inputs: &Inputs<'_>,
+            parameters: &Parameters,
+            target: &wgpu::TextureView,
+        ) -> Result<Bound, Error> {
+            let inputs: [(&str, Resource<'_>); 1] = [
+                ("color", Resource::from(inputs.color)),
+            ];
+            self.0
+                .bind_with(
+                    &inputs,
+                    target,
+                    &straightline_runtime::BindOptions::default()
+                        .uniforms(&parameters.to_bytes()),
+                )
+                .map(Bound)
+        }
+        /// The underlying pass, for queries about its bindings.
+        #[must_use]
+        pub fn inner(&self) -> &straightline_runtime::Pass {
+            &self.0
+        }
+    }
+    /// The shader with its inputs and outputs: encode it every frame.
+    #[derive(Debug)]
+    pub struct Bound(straightline_runtime::Bound);
+    impl Bound {
+        /// Records the shader.
+        pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+            self.0.encode(encoder);
+        }
+        /// Sets all runtime values, from the next recording on.
+        pub fn set_parameters(&self, queue: &wgpu::Queue, parameters: &Parameters) {
+            self.0.write_at(queue, 0, &parameters.to_bytes());
+        }
+        /// Sets `near` from the next recording on.
+        pub fn set_near(&self, queue: &wgpu::Queue, value: impl Into<[f32; 3]>) {
+            let value: [f32; 3] = value.into();
+            self.0.write_at(queue, 0, value.map(f32::to_le_bytes).as_flattened());
+        }
+        /// Sets `weight` from the next recording on.
+        pub fn set_weight(&self, queue: &wgpu::Queue, value: f32) {
+            self.0.write_at(queue, 12, &value.to_le_bytes());
+        }
+        /// Sets `turn` from the next recording on.
+        /// Columns first.
+        pub fn set_turn(&self, queue: &wgpu::Queue, value: [[f32; 2]; 2]) {
+            self.0.write_at(queue, 16, value[0].map(f32::to_le_bytes).as_flattened());
+            self.0.write_at(queue, 24, value[1].map(f32::to_le_bytes).as_flattened());
+        }
+        /// The underlying binding, for timing.
+        #[must_use]
+        pub fn inner(&self) -> &straightline_runtime::Bound {
+            &self.0
+        }
+    }
+    /// The shader with its bindings, computed when it was generated: creating a pass parses nothing.
+    pub static SHADER: straightline_runtime::Shader<'static> = {
+        use straightline_runtime::Shader;
+        use straightline_runtime::plan::{
+            Borrowed, Dimension, Extent, FieldPlan, Format, InputKind, InputPlan,
+            OutputPlan, PartPlan, Plan, SampleType, Scalar, StagePlan, TexturePlan,
+            UniformPlan, ValueType,
+        };
+        Shader::generated(
+            WGSL,
+            0x95ad_3024_930c_4b40,
+            straightline_runtime::loops_end!(),
+            Plan {
+                kernel: Borrowed("lit"),
+                entry_point: Borrowed("lit_kernel"),
+                stage: StagePlan::Compute {
+                    workgroup: WORKGROUP_SIZE,
+                    fills_memory: false,
+                },
+                block: [1, 1],
+                features: Borrowed(&[Borrowed("immediates")]),
+                inputs: Borrowed(
+                    &[
+                        InputPlan {
+                            name: Borrowed("color"),
+                            group: 0,
+                            binding: 0,
+                            kind: InputKind::Texture(TexturePlan {
+                                dimension: Dimension::D2,
+                                sample_type: SampleType::Unfilterable,
+                                components: 3,
+                                layers: 1,
+                                samples: 1,
+                                extent: Extent::Output,
+                            }),
+                        },
+                    ],
+                ),
+                uniforms: Borrowed(
+                    &[
+                        UniformPlan {
+                            name: Borrowed("parameters"),
+                            place: None,
+                            size: 32,
+                            fields: Borrowed(
+                                &[
+                                    FieldPlan {
+                                        name: Borrowed("near"),
+                                        ty: ValueType::Vector {
+                                            of: Scalar::F32,
+                                            components: 3,
+                                        },
+                                        offset: 0,
+                                        default: None,
+                                        part: None,
+                                        frame_size: false,
+                                    },
+                                    FieldPlan {
+                                        name: Borrowed("weight"),
+                                        ty: ValueType::Scalar(Scalar::F32),
+                                        offset: 12,
+                                        default: None,
+                                        part: None,
+                                        frame_size: false,
+                                    },
+                                    FieldPlan {
+                                        name: Borrowed("turn_x_axis"),
+                                        ty: ValueType::Vector {
+                                            of: Scalar::F32,
+                                            components: 2,
+                                        },
+                                        offset: 16,
+                                        default: None,
+                                        part: Some(PartPlan {
+                                            of: Borrowed("turn"),
+                                            ty: ValueType::Matrix {
+                                                columns: 2,
+                                                rows: 2,
+                                            },
+                                            index: 0,
+                                        }),
+                                        frame_size: false,
+                                    },
+                                    FieldPlan {
+                                        name: Borrowed("turn_y_axis"),
+                                        ty: ValueType::Vector {
+                                            of: Scalar::F32,
+                                            components: 2,
+                                        },
+                                        offset: 24,
+                                        default: None,
+                                        part: Some(PartPlan {
+                                            of: Borrowed("turn"),
+                                            ty: ValueType::Matrix {
+                                                columns: 2,
+                                                rows: 2,
+                                            },
+                                            index: 1,
+                                        }),
+                                        frame_size: false,
+                                    },
+                                ],
+                            ),
+                        },
+                    ],
+                ),
+                region: None,
+                overrides: Borrowed(&[]),
+                varyings: Borrowed(&[]),
+                outputs: Borrowed(
+                    &[
+                        OutputPlan {
+                            name: Borrowed("destination"),
+                            place: Some((0, 1)),
+                            format: Format::Rgba32Float,
                             tile: None,
                         },
                     ],
@@ -2185,8 +2530,7 @@ pub mod waiting {
                     &[
                         UniformPlan {
                             name: Borrowed("parameters"),
-                            group: 0,
-                            binding: 2,
+                            place: Some((0, 2)),
                             size: 16,
                             fields: Borrowed(
                                 &[
@@ -2696,8 +3040,7 @@ pub mod sraa {
                     &[
                         UniformPlan {
                             name: Borrowed("parameters"),
-                            group: 0,
-                            binding: 3,
+                            place: Some((0, 3)),
                             size: 16,
                             fields: Borrowed(
                                 &[
@@ -2869,8 +3212,7 @@ pub mod glow {
                             &[
                                 UniformPlan {
                                     name: Borrowed("parameters"),
-                                    group: 0,
-                                    binding: 4,
+                                    place: Some((0, 4)),
                                     size: 16,
                                     fields: Borrowed(
                                         &[

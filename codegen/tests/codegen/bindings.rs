@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use straightline_codegen::chain::Fuse;
-use straightline_codegen::emit::{self, Module, Modules, Target};
+use straightline_codegen::emit::{self, Module, Modules, Parameters, Target};
 use straightline_codegen::{Config, EmitOptions, Format, Kernel, Settings, Share, Stage, Unroll};
 
 /// As much of the runtime as bindings name, beside what their constants are made of, which is the runtime's own.
@@ -482,6 +482,9 @@ fn write(out: &Path) {
         .file_with(kernel("graded"), |k| k.format(Format::Rgba32Float))
         .file_with(kernel("drawn"), |k| k.stage(Stage::Fragment))
         .file_with(kernel("several"), |k| k.stage(Stage::Fragment))
+        .file_with(kernel("lit"), |k| {
+            k.format(Format::Rgba32Float).parameters(Parameters::Immediate)
+        })
         .file(kernel("waiting"))
         .file_with(kernel("glow"), |k| k.format(Format::Rgba32Float))
         .file_with(kernel("levels"), |k| {

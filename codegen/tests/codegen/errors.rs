@@ -1,6 +1,6 @@
 //! Every message of the generator, as a user sees it: `tests/errors/NAME.rs` is refused with `NAME.txt`. Lines
 //! `// set: OPTION=VALUE`, `// override: OPTIONS`, `// unroll: POLICY`, `// unroll-loop: LOOP=POLICY`, `// budget: N`, `// function: NAME`,
-//! `// fuse: PICTURES`, `// stage: fragment`, `// target: LANGUAGE`, `// binding: NAME=N`, `// register: NAME=REGISTER`, `// entry: NAME`, `// form: FORM` and
+//! `// fuse: PICTURES`, `// stage: fragment`, `// target: LANGUAGE`, `// binding: NAME=N`, `// register: NAME=REGISTER`, `// entry: NAME`, `// parameters: SPACE`, `// form: FORM` and
 //! `// origin: ORIGIN` at the top of a case say how it is compiled and emitted.
 //!
 //! `STRAIGHTLINE_BLESS=1` writes what the messages are now.
@@ -55,6 +55,7 @@ fn message(path: &Path) -> Result<String, String> {
                 let (name, register) = pair()?;
                 options = options.register(name, register.parse()?);
             }
+            "parameters" => options.parameters = value.parse()?,
             "entry" => options = options.entry(value),
             "form" => options.form = value.parse()?,
             "origin" => options.origin = value.parse()?,

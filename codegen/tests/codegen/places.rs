@@ -3,7 +3,7 @@
 use crate::compilers;
 
 use compilers::read;
-use straightline_codegen::emit::{Emitted, Target};
+use straightline_codegen::emit::{Emitted, Parameters, Target};
 use straightline_codegen::{Compiled, EmitOptions, Form, Kernel, Manifest, Origin, Precision, Settings, Stage};
 use straightline_manifest::{LanguageKind, hash_of_text};
 
@@ -428,6 +428,66 @@ fn a_function_takes_what_it_reads() {
     );
 }
 
+/// Uniforms as immediates have a number in HLSL and MSL alone, after all others.
+#[test]
+fn immediates_have_no_number() {
+    let compiled = kernel(ALL, "all");
+    let options = EmitOptions::new()
+        .targets(Target::MODERN)
+        .region(true)
+        .group(2)
+        .parameters(Parameters::Immediate);
+    let all = emitted(&compiled, &options);
+    let lines = [
+        (Target::Wgsl, "\nvar<immediate> parameters: Parameters;\n"),
+        (Target::Wgsl, "@group(2) @binding(5) var<uniform> region: Region;"),
+        (
+            Target::Glsl450,
+            "layout(push_constant) uniform Parameters {\n    float tau;\n} parameters;",
+        ),
+        (
+            Target::Hlsl,
+            "#ifdef __spirv__\n[[vk::push_constant]]\n#endif\nConstantBuffer<Parameters> parameters : register(b6, space2);",
+        ),
+        (Target::Msl, "constant Parameters& parameters [[buffer(6)]]"),
+    ];
+    for (target, line) in lines {
+        says(&text(&all, target), &[line]);
+    }
+    let manifest = &all.manifest;
+    assert_eq!(manifest.features, ["immediates"]);
+    assert!(manifest.binding("parameters").is_none());
+    let immediates = manifest.immediates.as_ref().expect("immediates");
+    assert_eq!((immediates.name.as_str(), immediates.size), ("parameters", 16));
+    let listed = manifest.language_bindings.iter();
+    let listed = listed.filter(|bound| bound.kind == LanguageKind::Immediates);
+    let listed: Vec<_> = listed
+        .map(|bound| (bound.language.as_str(), bound.binding, bound.register.as_deref()))
+        .collect();
+    let wanted = [
+        ("glsl450", None, None),
+        ("hlsl", None, Some("b6")),
+        ("msl", Some(6), None),
+    ];
+    assert_eq!(listed, wanted);
+    let chosen = options
+        .clone()
+        .register("parameters", "b3".parse().expect("a register"));
+    says(
+        &text(&emitted(&compiled, &chosen), Target::Hlsl),
+        &["parameters : register(b3, space2)"],
+    );
+
+    let opengl = EmitOptions::new().targets([Target::Glsl430]);
+    let [loose, immediate] = [Parameters::Uniform, Parameters::Immediate]
+        .map(|space| text(&emitted(&compiled, &opengl.clone().parameters(space)), Target::Glsl430));
+    assert_eq!(loose, immediate);
+
+    let copy = "pub fn copy(color: &Frame<Vec4>, pixel: IVec2) -> Vec4 {\n    color.load(pixel)\n}\n";
+    let copy = emitted(&kernel(copy, "copy"), &options);
+    assert!(copy.manifest.immediates.is_none() && copy.manifest.features.is_empty());
+}
+
 /// Writes a text and shows it to a compiler.
 fn compiles(text: &str, name: &str, compiler: impl Fn(&std::path::Path) -> Result<(), String>) {
     let folder = std::env::temp_dir().join(format!("straightline-function-{}", std::process::id()));
@@ -451,6 +511,8 @@ fn what_cannot_be_a_function_is_refused() {
     refused(&takes, &function().region(true), &["`region`"]);
     refused(&takes, &function().binding("color", 1), &["binds nothing", "`color`"]);
     refused(&takes, &function().group(1), &["binds nothing", "group 1"]);
+    let immediate = function().parameters(Parameters::Immediate);
+    refused(&takes, &immediate, &["binds nothing", "`parameters` as `immediate`"]);
     refused(&kernel(ALL, "all"), &function(), &["buffer `weights`", "wgsl", "hlsl"]);
     refused(&takes, &function().entry("main"), &["`main`", "has a use for"]);
     let workgroup = function().workgroup(8, 8);

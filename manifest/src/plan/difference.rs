@@ -39,9 +39,8 @@ fn find_difference(before: &[Bound], after: &[Bound]) -> Option<String> {
 
 /// Lists everything that is bound by its name, with or without its place.
 fn list_bindings(plan: &Plan, places: bool) -> Vec<Bound> {
-    let place = |group: u32, binding: u32| places.then_some((group, binding));
     let inputs = plan.inputs.iter().map(|input| {
-        let text = format!("{:?} {:?}", input.kind, place(input.group, input.binding));
+        let text = format!("{:?} {:?}", input.kind, places.then_some((input.group, input.binding)));
         (format!("input `{}`", input.name), text)
     });
     let outputs = plan.outputs.iter().map(|output| {
@@ -55,13 +54,13 @@ fn list_bindings(plan: &Plan, places: bool) -> Vec<Bound> {
                 default: None,
                 ..field.clone()
             };
-            let place = place(uniform.group, uniform.binding);
+            let place = uniform.place.filter(|_| places);
             let text = format!("{place:?} {} {bare:?}", uniform.size);
             (format!("uniform `{}`", field.source_name()), text)
         })
     });
     let region = plan.region.iter().map(|region| {
-        let text = format!("{:?} {}", place(region.group, region.binding), region.size);
+        let text = format!("{:?} {}", region.place.filter(|_| places), region.size);
         ("the rectangle of regions".to_owned(), text)
     });
     inputs.chain(outputs).chain(uniforms).chain(region).collect()

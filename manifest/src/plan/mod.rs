@@ -33,7 +33,7 @@ pub struct Plan {
     pub stage: StagePlan,
     /// Pixels that one invocation computes, across and down.
     pub block: [u32; 2],
-    /// Features of the device, by name: `subgroup`, `shader-f16`.
+    /// Features of the device, by name: `subgroup`, `shader-f16`, `immediates`.
     pub features: List<Text>,
     /// Resources of the caller, in binding order.
     pub inputs: List<InputPlan>,
@@ -104,13 +104,11 @@ pub struct BufferPlan {
 /// A uniform struct.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UniformPlan {
-    /// Name of the buffer.
+    /// Name of the variable.
     pub name: Text,
-    /// Bind group.
-    pub group: u32,
-    /// Binding number in the group.
-    pub binding: u32,
-    /// Bytes of the buffer.
+    /// Bind group and binding number of a buffer; immediates have none.
+    pub place: Option<(u32, u32)>,
+    /// Bytes of the buffer or of the immediates.
     pub size: u32,
     /// Fields in order of offset.
     pub fields: List<FieldPlan>,
@@ -239,6 +237,12 @@ impl Plan {
         self.uniforms.iter().chain(&self.region)
     }
 
+    /// Returns the bytes of immediates; 0 if there are none.
+    pub fn immediate_size(&self) -> u32 {
+        let immediates = self.uniforms.iter().filter(|uniform| uniform.place.is_none());
+        immediates.map(|uniform| uniform.size).sum()
+    }
+
     /// Returns whether a caller sets a uniform of this name: a field, or the matrix or array that fields are parts of.
     pub fn has_uniform(&self, name: &str) -> bool {
         let mut fields = self.uniforms.iter().flat_map(|uniform| uniform.fields.iter());
@@ -248,7 +252,7 @@ impl Plan {
     /// Group and binding number of everything, sorted.
     pub fn binding_places(&self) -> Vec<(u32, u32)> {
         let mut places: Vec<(u32, u32)> = self.inputs.iter().map(|i| (i.group, i.binding)).collect();
-        places.extend(self.uniform_structs().map(|u| (u.group, u.binding)));
+        places.extend(self.uniform_structs().filter_map(|uniform| uniform.place));
         places.extend(self.outputs.iter().filter_map(|output| output.place));
         places.sort_unstable();
         places

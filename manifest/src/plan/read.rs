@@ -5,8 +5,8 @@ use super::{
     binding,
 };
 use crate::{
-    Access, Binding, BindingKind, BufferType, Form, Manifest, Output, REGION_SIZE, Scalar, Stage, ViewDimension,
-    region_fields,
+    Access, Binding, BindingKind, BufferType, Form, Manifest, Output, REGION_SIZE, Scalar, Stage, UniformField,
+    ViewDimension, region_fields,
 };
 
 /// A manifest that contradicts itself, or describes something that no shader of the generator needs.
@@ -49,13 +49,22 @@ impl Plan {
             let read = bound.add(binding);
             read.map_err(|problem| bad(format!("binding `{}`", binding.name), problem))?;
         }
+        if let Some(source) = &manifest.immediates {
+            let read = plan_uniform(&source.name, None, source.size, &source.fields);
+            let read = read.and_then(|uniform| {
+                let named = manifest.features.iter().any(|feature| feature == "immediates");
+                require(named, || "the feature `immediates` is not listed".to_owned()).map(|()| uniform)
+            });
+            let place = format!("immediates `{}`", source.name);
+            bound.uniforms.push(read.map_err(|problem| bad(place, problem))?);
+        }
         let Bound {
             mut inputs,
             mut uniforms,
             region,
         } = bound;
         inputs.sort_by_key(|input| (input.group, input.binding));
-        uniforms.sort_by_key(|uniform| (uniform.group, uniform.binding));
+        uniforms.sort_by_key(|uniform| uniform.place);
         let plan = Plan {
             kernel: manifest.kernel.clone().into(),
             entry_point: manifest.entry_point.clone().into(),
@@ -157,24 +166,11 @@ impl Bound {
             } => {
                 let fits = *buffer_type == BufferType::Uniform;
                 require(fits, || "its buffer_type is not uniform".to_owned())?;
-                require(*size > 0 && size % 16 == 0, || {
-                    format!("{size} bytes, not a multiple of 16")
-                })?;
                 if source.is_region() {
                     let fits = *fields == region_fields() && *size == REGION_SIZE;
                     require(fits, || "its fields are not those of a region".to_owned())?;
                 }
-                let fields = fields
-                    .iter()
-                    .map(|f| binding::plan_field(f, *size))
-                    .collect::<Result<Vec<_>, _>>()?;
-                let uniform = UniformPlan {
-                    name,
-                    group,
-                    binding,
-                    size: *size,
-                    fields: fields.into(),
-                };
+                let uniform = plan_uniform(&source.name, Some((group, binding)), *size, fields)?;
                 if source.is_region() {
                     require(self.region.is_none(), || "it is listed twice".to_owned())?;
                     self.region = Some(uniform);
@@ -192,6 +188,25 @@ impl Bound {
         });
         Ok(())
     }
+}
+
+/// A uniform struct, at a `place` if it is a buffer.
+fn plan_uniform(
+    name: &str,
+    place: Option<(u32, u32)>,
+    size: u32,
+    fields: &[UniformField],
+) -> Result<UniformPlan, String> {
+    require(size > 0 && size.is_multiple_of(16), || {
+        format!("{size} bytes, not a multiple of 16")
+    })?;
+    let fields = fields.iter().map(|field| binding::plan_field(field, size));
+    Ok(UniformPlan {
+        name: name.to_owned().into(),
+        place,
+        size,
+        fields: fields.collect::<Result<Vec<_>, _>>()?.into(),
+    })
 }
 
 /// The stage of `manifest`.

@@ -234,13 +234,15 @@ impl BoundDraw {
         &self.plan.kernel
     }
 
-    /// Sets the pipeline and the kernel's bind groups in `pass`. What the vertex shader reads, its own bind groups and
+    /// Sets the pipeline and the kernel's bind groups and immediates in `pass`. A vertex shader with immediates of its own
+    /// would read the same bytes. What the vertex shader reads, its own bind groups and
     /// vertex buffers, and the draw calls are the caller's. It cannot fail, and allocates nothing of its own.
     pub fn set(&self, pass: &mut RenderPass<'_>) {
         pass.set_pipeline(&self.pipeline);
         for (index, group) in &self.groups {
             pass.set_bind_group(*index, group, &[]);
         }
+        self.uniforms.record_immediates(|bytes| pass.set_immediates(0, bytes));
     }
 
     /// Sets the uniform `name`: see [`Bound::write_uniform`](crate::Bound::write_uniform).

@@ -14,6 +14,7 @@ pub(super) fn check_limits(device: &wgpu::Device, plan: &Plan, last_group: u32) 
             .count() as u64
     };
     let [textures, samplers, buffers] = [ResourceKind::Texture, ResourceKind::Sampler, ResourceKind::Buffer].map(count);
+    let uniform_buffers = || plan.uniform_structs().filter(|uniform| uniform.place.is_some());
     let mut wanted = vec![
         (
             "max_bind_groups",
@@ -46,13 +47,18 @@ pub(super) fn check_limits(device: &wgpu::Device, plan: &Plan, last_group: u32) 
         ),
         (
             "max_uniform_buffers_per_shader_stage",
-            plan.uniform_structs().count() as u64,
+            uniform_buffers().count() as u64,
             u64::from(limits.max_uniform_buffers_per_shader_stage),
         ),
         (
             "max_uniform_buffer_binding_size",
-            plan.uniform_structs().map(|u| u64::from(u.size)).max().unwrap_or(0),
+            uniform_buffers().map(|u| u64::from(u.size)).max().unwrap_or(0),
             limits.max_uniform_buffer_binding_size,
+        ),
+        (
+            "max_immediate_size",
+            u64::from(plan.immediate_size()),
+            u64::from(limits.max_immediate_size),
         ),
     ];
     let outputs = plan.outputs.len() as u64;

@@ -90,7 +90,7 @@ impl Layout {
             let pipeline = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(kernel),
                 bind_group_layouts: &slots,
-                immediate_size: 0,
+                immediate_size: plan.immediate_size(),
             });
             Layout { groups, pipeline }
         })
@@ -145,10 +145,13 @@ impl Group {
             add(input.group, input.binding, resource.as_binding());
         }
         for (block, buffer) in plan.uniforms.iter().zip(uniforms.buffers()) {
-            add(block.group, block.binding, buffer.as_entire_binding());
+            if let (Some((group, binding)), Some(buffer)) = (block.place, buffer) {
+                add(group, binding, buffer.as_entire_binding());
+            }
         }
-        if let (Some(plan), Some(buffer)) = (&plan.region, region) {
-            add(plan.group, plan.binding, buffer.as_entire_binding());
+        let place = plan.region.as_ref().and_then(|region| region.place);
+        if let (Some((group, binding)), Some(buffer)) = (place, region) {
+            add(group, binding, buffer.as_entire_binding());
         }
         for (output, target) in plan.outputs.iter().zip(targets) {
             if let Some((group, binding)) = output.place {
@@ -180,12 +183,15 @@ fn layout_entries(plan: &Plan) -> Vec<(u32, BindGroupLayoutEntry)> {
         entries.push((input.group, entry(input.binding, binding_type(&input.kind))));
     }
     for uniform in plan.uniform_structs() {
+        let Some((group, binding)) = uniform.place else {
+            continue;
+        };
         let ty = BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
             has_dynamic_offset: false,
             min_binding_size: wgpu::BufferSize::new(u64::from(uniform.size)),
         };
-        entries.push((uniform.group, entry(uniform.binding, ty)));
+        entries.push((group, entry(binding, ty)));
     }
     for output in plan.outputs.iter() {
         if let Some((group, binding)) = output.place {

@@ -1,24 +1,38 @@
-//! Values that are set at run time: where they start, and their buffers.
+//! Values that are set at run time: where they start, and their buffers or immediates.
 
 mod value;
 
 use crate::guard::run_guarded;
 use crate::plan::{FieldPlan, Plan, UniformPlan};
 use crate::{BindOptions, Error, Names};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 pub use value::{Component, UniformValue};
 
-/// The uniform structs of a bound pass, on the device.
+/// The uniform structs of a bound pass.
 #[derive(Debug)]
 pub(crate) struct Uniforms {
-    /// Buffers, one for each struct of the plan, in its order.
-    buffers: Vec<wgpu::Buffer>,
+    /// One for each struct of the plan, in its order.
+    blocks: Vec<Block>,
     /// The frame's size as stored in its field, if the targets determine it: index of the struct, offset and bytes.
     frame: Option<(usize, u32, [u8; 8])>,
 }
 
+/// Memory of a uniform struct.
+#[derive(Debug)]
+enum Block {
+    /// On the device.
+    Buffer(wgpu::Buffer),
+    /// Recorded with each dispatch or draw.
+    Immediates(Mutex<Box<[u8]>>),
+}
+
+fn lock(bytes: &Mutex<Box<[u8]>>) -> MutexGuard<'_, Box<[u8]>> {
+    bytes.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 impl Uniforms {
-    /// Buffers that hold the manifest's defaults, the values of `options`, and the size of the targets where they determine it.
-    /// Filled while mapped, so that no queue is needed and the first submission already sees them.
+    /// Blocks that hold the manifest's defaults, the values of `options`, and the size of the targets where they determine it.
+    /// Buffers are filled while mapped, so that no queue is needed and the first submission already sees them.
     pub(crate) fn new(
         device: &wgpu::Device,
         plan: &Plan,
@@ -33,25 +47,50 @@ impl Uniforms {
             Some((block, offset, bytes))
         });
         let contents = initial_blocks(plan, options, frame)?;
-        let buffers = plan.uniforms.iter().zip(contents).map(|(block, bytes)| {
+        let blocks = plan.uniforms.iter().zip(contents).map(|(block, bytes)| {
+            if block.place.is_none() {
+                return Ok(Block::Immediates(Mutex::new(bytes.into())));
+            }
             let refused = |description| Error::Pipeline {
                 kernel: plan.kernel.to_string(),
                 description,
             };
-            filled_buffer(device, &plan.kernel, &block.name, &bytes, refused)
+            filled_buffer(device, &plan.kernel, &block.name, &bytes, refused).map(Block::Buffer)
         });
         Ok(Uniforms {
-            buffers: buffers.collect::<Result<_, _>>()?,
+            blocks: blocks.collect::<Result<_, _>>()?,
             frame,
         })
     }
 
-    /// The buffers, in the order of the plan's structs.
-    pub(crate) fn buffers(&self) -> &[wgpu::Buffer] {
-        &self.buffers
+    /// The buffers, in the order of the plan's structs; `None` for immediates.
+    pub(crate) fn buffers(&self) -> impl Iterator<Item = Option<&wgpu::Buffer>> {
+        self.blocks.iter().map(|block| match block {
+            Block::Buffer(buffer) => Some(buffer),
+            Block::Immediates(_) => None,
+        })
     }
 
-    /// Puts `value` into the uniform `name`, ahead of the queue's next submission.
+    /// Passes the immediates to `set`, if there are any.
+    pub(crate) fn record_immediates(&self, set: impl FnOnce(&[u8])) {
+        let immediates = self.blocks.iter().find_map(|block| match block {
+            Block::Immediates(bytes) => Some(bytes),
+            Block::Buffer(_) => None,
+        });
+        if let Some(bytes) = immediates {
+            set(&lock(bytes));
+        }
+    }
+
+    /// Puts `bytes` at `offset` of a block, ahead of the queue's next submission or of the next recording.
+    fn write_block(&self, queue: &wgpu::Queue, block: usize, offset: u32, bytes: &[u8]) {
+        match &self.blocks[block] {
+            Block::Buffer(buffer) => queue.write_buffer(buffer, u64::from(offset), bytes),
+            Block::Immediates(own) => copy_bytes(&mut lock(own), offset, bytes),
+        }
+    }
+
+    /// Puts `value` into the uniform `name`, ahead of the queue's next submission or of the next recording.
     pub(crate) fn write_value(
         &self,
         plan: &Plan,
@@ -60,16 +99,16 @@ impl Uniforms {
         value: &UniformValue,
     ) -> Result<(), Error> {
         place_value(plan, name, value, |block, offset, bytes| {
-            queue.write_buffer(&self.buffers[block], u64::from(offset), bytes);
+            self.write_block(queue, block, offset, bytes);
         })?;
         self.restore_frame(queue);
         Ok(())
     }
 
-    /// Puts `bytes` at `offset` of the first struct, ahead of the queue's next submission.
+    /// Puts `bytes` at `offset` of the first struct.
     pub(crate) fn write_at(&self, queue: &wgpu::Queue, offset: u32, bytes: &[u8]) {
-        if let Some(buffer) = self.buffers.first() {
-            queue.write_buffer(buffer, u64::from(offset), bytes);
+        if !self.blocks.is_empty() {
+            self.write_block(queue, 0, offset, bytes);
         }
         self.restore_frame(queue);
     }
@@ -77,14 +116,14 @@ impl Uniforms {
     /// Puts the targets' size back into its field, which a caller's write of the whole struct covers.
     fn restore_frame(&self, queue: &wgpu::Queue) {
         if let Some((block, offset, bytes)) = &self.frame {
-            queue.write_buffer(&self.buffers[*block], u64::from(*offset), bytes);
+            self.write_block(queue, *block, *offset, bytes);
         }
     }
 
-    /// Puts `bytes` into all structs, one after the other, ahead of the queue's next submission.
+    /// Puts `bytes` into all structs, one after the other.
     pub(crate) fn write_all(&self, plan: &Plan, queue: &wgpu::Queue, bytes: &[u8]) -> Result<(), Error> {
-        for (buffer, bytes) in self.buffers.iter().zip(split_blocks(plan, bytes)?) {
-            queue.write_buffer(buffer, 0, bytes);
+        for (block, bytes) in split_blocks(plan, bytes)?.enumerate() {
+            self.write_block(queue, block, 0, bytes);
         }
         self.restore_frame(queue);
         Ok(())

@@ -1,6 +1,6 @@
 //! Small kernels, written by hand, that read one kind of resource each.
 
-use super::Kernel;
+use super::{Fixture, Kernel, Stage};
 
 pub const COLOR: &str = r#"{"group": 0, "binding": 0, "name": "color", "type": "texture",
     "view_dimension": "2d", "multisampled": false, "sample_type": "unfilterable-float", "components": 4, "layers": 1, "samples": 1,
@@ -128,3 +128,21 @@ pub const BINS: Kernel = Kernel {
         fn noted(pixel: vec2i) -> vec4f { bins[pixel.x] = table[pixel.x]; more[pixel.y] = 1u; return vec4f(1.0); }",
     result: "noted(pixel)",
 };
+
+/// `color * scale + offset`, called `tinted`, whose uniforms are immediates.
+pub fn tinted(stage: Stage) -> Fixture {
+    let plain = Kernel {
+        name: "tinted",
+        bindings: &[COLOR],
+        declarations: "struct Params { offset: vec4f, scale: f32 }
+            @group(0) @binding(0) var color: texture_2d<f32>;
+            var<immediate> params: Params;",
+        result: "textureLoad(color, pixel, 0) * params.scale + params.offset",
+    };
+    let Fixture { manifest, wgsl } = plain.emit(stage);
+    let immediates = r#""features": ["immediates"], "immediates": {"name": "params", "size": 32, "fields": [
+        {"name": "offset", "type": "vec4f", "offset": 0, "size": 16},
+        {"name": "scale", "type": "f32", "offset": 16, "size": 4, "default": 2.0}]}, "bindings""#;
+    let manifest = manifest.replacen(r#""bindings""#, immediates, 1);
+    Fixture { manifest, wgsl }
+}

@@ -28,6 +28,15 @@ impl Gpu {
         Self::of(adapter, required_features, required_limits)
     }
 
+    /// A device with `bytes` of immediates.
+    pub fn with_immediates(bytes: u32) -> Self {
+        let limits = wgpu::Limits {
+            max_immediate_size: bytes,
+            ..wgpu::Limits::default()
+        };
+        Self::with(wgpu::Features::IMMEDIATES, limits)
+    }
+
     /// Another device of the same adapter. wgpu could not distinguish views of a device from another instance.
     pub fn sibling(&self) -> Self {
         Self::of(self.adapter.clone(), wgpu::Features::empty(), wgpu::Limits::default())

@@ -16,6 +16,7 @@ mod errors_chains;
 mod errors_making;
 mod errors_resources;
 mod errors_uniforms;
+mod immediates;
 mod overrides;
 mod pending;
 mod quads;

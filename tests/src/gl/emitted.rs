@@ -60,6 +60,9 @@ pub fn run_output(
         };
         program = program.texture(texture(manifest, inputs, &extra.name, of, extra.sampler.as_deref())?);
     }
+    for field in manifest.immediates.iter().flat_map(|immediates| &immediates.fields) {
+        program = program.uniform(&field.name, value(field, inputs)?);
+    }
     for binding in &manifest.bindings {
         match &binding.kind {
             BindingKind::Uniform { fields, .. } => {

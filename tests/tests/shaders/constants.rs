@@ -27,7 +27,7 @@ mod generated {
 const SIZE: UVec2 = uvec2(45, 31);
 
 /// Each module with its manifest and constant.
-const MODULES: [(&str, &Shader<'static>); 8] = [
+const MODULES: [(&str, &Shader<'static>); 9] = [
     (generated::all::MANIFEST, &generated::all::SHADER),
     (generated::tile::MANIFEST, &generated::tile::SHADER),
     (generated::graded::MANIFEST, &generated::graded::SHADER),
@@ -36,6 +36,7 @@ const MODULES: [(&str, &Shader<'static>); 8] = [
     (generated::waiting::MANIFEST, &generated::waiting::SHADER),
     (generated::sraa::MANIFEST, &generated::sraa::SHADER),
     (generated::faded::MANIFEST, &generated::faded::SHADER),
+    (generated::lit::MANIFEST, &generated::lit::SHADER),
 ];
 
 fn captured() -> PathBuf {

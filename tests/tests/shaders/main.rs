@@ -16,6 +16,7 @@ mod gpu;
 mod half;
 mod hlsl;
 mod images;
+mod immediates;
 mod opengl;
 mod origin;
 mod outputs;

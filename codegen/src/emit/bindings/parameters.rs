@@ -7,16 +7,15 @@ use straightline_manifest::{BindingKind, Element, Manifest, Scalar, UniformField
 
 /// Returns the struct `Parameters` with its items, and the methods that set it.
 pub fn quote_parameters(manifest: &Manifest) -> (TokenStream, TokenStream) {
-    let uniforms = manifest.bindings.iter().find_map(|b| match &b.kind {
-        BindingKind::Uniform { fields, size, .. } if !b.is_region() => Some((fields.as_slice(), *size)),
-        _ => None,
-    });
-    match uniforms {
+    match manifest.uniform_block() {
         Some((fields, size)) => {
-            let docs = " Values that are set at run time, as they lie in the shader's uniform buffer.";
+            let docs = match manifest.immediates {
+                None => " Values that are set at run time, as they lie in the shader's uniform buffer.",
+                Some(_) => " Values that are set at run time, as they lie in the shader's immediates.",
+            };
             let structure = quote_structure("Parameters", docs, fields, size);
             let by_name = by_name(fields);
-            (quote! { #structure #by_name }, quote_setters(fields))
+            (quote! { #structure #by_name }, quote_setters(manifest, fields))
         }
         None => (TokenStream::new(), TokenStream::new()),
     }
@@ -353,11 +352,15 @@ fn by_name(fields: &[UniformField]) -> TokenStream {
 
 /// Returns the setters of a bound shader: one that sets all values, and one for each value. The setters cannot fail, since
 /// the compiler checks names and types.
-fn quote_setters(fields: &[UniformField]) -> TokenStream {
+fn quote_setters(manifest: &Manifest, fields: &[UniformField]) -> TokenStream {
+    let from = match manifest.immediates {
+        None => "submission",
+        Some(_) => "recording",
+    };
     let wholes = group_fields(fields);
     let each = wholes.iter().map(|whole| {
         let setter = setter_name(fields, whole.name);
-        let docs = doc_line(&format!("Sets `{}` from the next submission on.", whole.name));
+        let docs = doc_line(&format!("Sets `{}` from the next {from} on.", whole.name));
         let columns = whole.column_docs();
         let (taken, own) = whole.setter_argument();
         let writes = whole.field_values().map(|(field, value)| {
@@ -378,8 +381,9 @@ fn quote_setters(fields: &[UniformField]) -> TokenStream {
             }
         }
     });
+    let docs = doc_line(&format!("Sets all runtime values, from the next {from} on."));
     quote! {
-        /// Sets all runtime values, from the next submission on.
+        #[doc = #docs]
         pub fn set_parameters(&self, queue: &wgpu::Queue, parameters: &Parameters) {
             self.0.write_at(queue, 0, &parameters.to_bytes());
         }

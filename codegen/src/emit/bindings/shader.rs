@@ -195,18 +195,16 @@ fn quote_input(input: &InputPlan) -> TokenStream {
 fn quote_uniform(uniform: &UniformPlan) -> TokenStream {
     let UniformPlan {
         name,
-        group,
-        binding,
+        place,
         size,
         fields,
     } = uniform;
-    let [group, binding, size] = [*group, *binding, *size].map(Literal::u32_unsuffixed);
+    let (place, size) = (quote_place(*place), Literal::u32_unsuffixed(*size));
     let fields = fields.iter().map(quote_field);
     quote! {
         UniformPlan {
             name: Borrowed(#name),
-            group: #group,
-            binding: #binding,
+            place: #place,
             size: #size,
             fields: Borrowed(&[#(#fields),*]),
         }
@@ -274,6 +272,14 @@ fn quote_varying(varying: &VaryingPlan) -> TokenStream {
     quote! { VaryingPlan { name: Borrowed(#name), ty: #ty, location: #location } }
 }
 
+/// Returns bind group and binding number, if there are any.
+fn quote_place(place: Option<(u32, u32)>) -> TokenStream {
+    quote_option(place.map(|(group, binding)| {
+        let [group, binding] = [group, binding].map(Literal::u32_unsuffixed);
+        quote! { (#group, #binding) }
+    }))
+}
+
 fn quote_output(output: &OutputPlan) -> TokenStream {
     let OutputPlan {
         name,
@@ -281,10 +287,7 @@ fn quote_output(output: &OutputPlan) -> TokenStream {
         format,
         tile,
     } = output;
-    let place = quote_option(place.map(|(group, binding)| {
-        let [group, binding] = [group, binding].map(Literal::u32_unsuffixed);
-        quote! { (#group, #binding) }
-    }));
+    let place = quote_place(*place);
     let tile = quote_option(tile.map(|sides| {
         let [width, height] = sides.map(Literal::u32_unsuffixed);
         quote! { [#width, #height] }

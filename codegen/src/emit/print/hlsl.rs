@@ -449,9 +449,16 @@ impl Language for Hlsl<'_> {
                 out += &format!("    {line};\n");
             }
             let register = r.places.register_at('b', binding);
-            out += &format!(
-                "}};\n\ncbuffer Parameters_buffer : register({register}) {{\n    Parameters {UNIFORMS};\n}}\n"
-            );
+            out += "};\n\n";
+            out += &match r.has_immediates() {
+                // DXC warns of the attribute unless it writes SPIR-V.
+                true => format!(
+                    "#ifdef __spirv__\n[[vk::push_constant]]\n#endif\nConstantBuffer<Parameters> {UNIFORMS} : register({register});\n"
+                ),
+                false => {
+                    format!("cbuffer Parameters_buffer : register({register}) {{\n    Parameters {UNIFORMS};\n}}\n")
+                }
+            };
         }
         if let Some(binding) = r.region_binding() {
             out += &format!("\nstruct Region {{\n    {}\n", r.region_comment());

@@ -38,10 +38,11 @@ impl Glsl<'_> {
         }
         out += &self.output_and_inputs(true);
         if let Some(binding) = r.uniform_binding() {
-            out += &format!(
-                "\n{}uniform Parameters {{\n",
-                self.layout_qualifier(binding, "std140, ", "")
-            );
+            let layout = match r.has_immediates() {
+                true => "layout(push_constant) ".to_owned(),
+                false => self.layout_qualifier(binding, "std140, ", ""),
+            };
+            out += &format!("\n{layout}uniform Parameters {{\n");
             for uniform in &r.uniforms {
                 out += &format!("    {};\n", variable_declared(&uniform.name, uniform.ty.into()));
             }

@@ -313,7 +313,11 @@ impl Language for Wgsl<'_> {
             for field in &r.fields {
                 out += &format!("    {}: {},\n", field.name, field.ty);
             }
-            out += &format!("}}\n\n@group({group}) @binding({binding}) var<uniform> {UNIFORMS}: Parameters;\n");
+            out += "}\n\n";
+            out += &match r.has_immediates() {
+                true => format!("var<immediate> {UNIFORMS}: Parameters;\n"),
+                false => format!("@group({group}) @binding({binding}) var<uniform> {UNIFORMS}: Parameters;\n"),
+            };
         }
         if let Some(binding) = r.region_binding() {
             out += &format!("\nstruct Region {{\n    {}\n", r.region_comment());
