@@ -16,6 +16,8 @@ pub struct Named {
     pub name: String,
     /// Register class in HLSL.
     pub class: char,
+    /// `true` of immediates, which have a number in HLSL and MSL alone.
+    pub immediate: bool,
 }
 
 /// Binding number of each resource, and the registers set by the user.
@@ -46,7 +48,7 @@ impl Places {
         let refused = |what: String, help: String| Refusal::invalid_binding(kernel, &what, help);
         if options.is_function() {
             return match no_places(options) {
-                None => Ok(Places::in_order(bound)),
+                None => Ok(Places::in_order(bound, sampler)),
                 Some(option) => Err(refused(
                     format!("a function binds nothing, and {option} is given"),
                     "leave it out, or emit the form `entry`".to_owned(),
@@ -94,22 +96,23 @@ impl Places {
                 .about_input(name));
             }
         }
-        places.fill_numbers(bound);
+        places.fill_numbers(bound, sampler);
         let registers = places.assign_registers(options, bound, sampler, &unknown);
         places.registers = registers.map_err(|(what, help)| refused(what, help))?;
         Ok(places)
     }
 
-    fn in_order(bound: &[Named]) -> Places {
+    fn in_order(bound: &[Named], sampler: &str) -> Places {
         let mut places = Places::default();
-        places.fill_numbers(bound);
+        places.fill_numbers(bound, sampler);
         places
     }
 
-    /// Assigns the lowest free numbers to all items without one.
-    fn fill_numbers(&mut self, bound: &[Named]) {
+    /// Assigns the lowest free numbers to all items without one. Immediates may share that of the sampler that only GLSL 4.50
+    /// has, where immediates have none: numbers are without gaps in every language.
+    fn fill_numbers(&mut self, bound: &[Named], sampler: &str) {
         let mut next = 0;
-        for Named { name, .. } in bound {
+        for Named { name, .. } in bound.iter().filter(|named| !named.immediate) {
             if !self.numbers.contains_key(name) {
                 while self.numbers.values().any(|n| *n == next) {
                     next += 1;
@@ -117,6 +120,15 @@ impl Places {
                 self.numbers.insert(name.clone(), next);
                 next += 1;
             }
+        }
+        for Named { name, .. } in bound.iter().filter(|named| named.immediate) {
+            let is_free = |n: &u32| {
+                self.numbers
+                    .iter()
+                    .all(|(other, number)| number != n || other == sampler)
+            };
+            let number = (0..).find(is_free).unwrap_or_default();
+            self.numbers.insert(name.clone(), number);
         }
     }
 

@@ -287,6 +287,7 @@ impl Resources {
         let named = |class: char, name: &str| Named {
             name: name.to_owned(),
             class,
+            immediate: false,
         };
         let all_bound = read.iter().map(|t| named('t', &graph.textures[t.index as usize].name));
         let all_bound = all_bound.chain(read_buffers.iter().map(|(k, _)| {
@@ -327,11 +328,9 @@ impl Resources {
         if immediate {
             check_immediates(kernel, options, &own_names.uniforms, uniform_size)?;
         }
-        // Immediates have a number in HLSL and MSL alone, which leaves no gap between the others.
         let own = [
-            (!fields.is_empty() && !immediate, 'b', &own_names.uniforms),
+            (!fields.is_empty(), 'b', &own_names.uniforms),
             (options.region, 'b', &own_names.region),
-            (immediate, 'b', &own_names.uniforms),
             (
                 !read.is_empty() && options.targets.contains(&Target::Glsl450),
                 's',
@@ -339,7 +338,10 @@ impl Resources {
             ),
         ];
         let own = own.into_iter().filter(|(is_bound, ..)| *is_bound);
-        all_bound.extend(own.map(|(_, class, name)| named(class, name)));
+        all_bound.extend(own.map(|(_, class, name)| Named {
+            immediate: immediate && *name == own_names.uniforms,
+            ..named(class, name)
+        }));
         let places = Places::new(&compiled.kernel, options, &all_bound, &given, &own_names.sampler)?;
         for (output, name) in outputs.iter_mut().zip(&given).filter(|_| compute) {
             output.binding = Some(places.binding_number(name));
