@@ -38,6 +38,11 @@ mod tests {
     fn a_ramp_becomes_dots() {
         let size = uvec2(64, 16);
         let ramp: Frame<Vec4> = draw(size, |pixel| Vec3::splat(pixel.x as f32 / 63.0).extend(1.0));
-        assert_picture("golden/dither.png", size, |pixel| ordered_dither(&ramp, 2, pixel), exactly());
+        assert_picture(
+            "golden/dither.png",
+            size,
+            |pixel| ordered_dither(&ramp, 2, pixel),
+            exactly(),
+        );
     }
 }

@@ -80,6 +80,11 @@ mod tests {
 
     #[test]
     fn octaves_draw_clouds() {
-        assert_picture("golden/perlin.png", uvec2(64, 36), |pixel| perlin(16.0, 0.5, 4, pixel), psnr(45.0));
+        assert_picture(
+            "golden/perlin.png",
+            uvec2(64, 36),
+            |pixel| perlin(16.0, 0.5, 4, pixel),
+            psnr(45.0),
+        );
     }
 }

@@ -34,6 +34,9 @@ pub use error::Error;
 /// Name of the file with the bindings.
 const BINDINGS: &str = "straightline.rs";
 
+/// Name of the file with the bindings that use wgpu alone.
+const PLAIN_BINDINGS: &str = "straightline_wgpu.rs";
+
 /// Compiles kernels of the caller's crate, with options at their defaults. The kernel of a file is the public function with
 /// the file's name, or else the only public function with a kernel's parameters and result. For anything else see
 /// [`Config`].
@@ -50,6 +53,7 @@ pub fn compile<P: AsRef<Path>>(files: impl IntoIterator<Item = P>) -> Result<(),
 pub struct Config {
     kernels: Vec<KernelConfig>,
     out_dir: Option<PathBuf>,
+    plain: bool,
 }
 
 impl Config {
@@ -74,6 +78,14 @@ impl Config {
     /// Adds a kernel of the caller's crate with options.
     pub fn file_with(mut self, path: impl AsRef<Path>, options: impl FnOnce(KernelConfig) -> KernelConfig) -> Self {
         self.kernels.push(options(KernelConfig::from_file(path)));
+        self
+    }
+
+    /// Also writes bindings that need no runtime, to `straightline_wgpu.rs`, for a crate with its own version of wgpu. They
+    /// have the texts, layouts, structures and constants, and the caller makes pipelines and bind groups:
+    /// `include!(concat!(env!("OUT_DIR"), "/straightline_wgpu.rs"));`
+    pub fn plain_bindings(mut self) -> Self {
+        self.plain = true;
         self
     }
 
@@ -138,6 +150,10 @@ impl Config {
         }
         let bindings = emit::render_bindings(&modules).map_err(Error::from_errors)?;
         all.insert(BINDINGS.to_owned(), bindings.into_bytes());
+        if self.plain {
+            let bindings = emit::render_plain_bindings(&modules);
+            all.insert(PLAIN_BINDINGS.to_owned(), bindings.into_bytes());
+        }
         files::write_all(&folder, &all)
             .map(|_| ())
             .map_err(|e| Error::from_problem(Problem::Write(e)))

@@ -56,7 +56,8 @@ use straightline_kernels::HalfPrecision;
 use straightline_manifest::{Counts, Format, Manifest, Precision, SourceMap, Stage, hash_of_bytes, hash_of_text};
 
 pub use bindings::{
-    Axis, CandidatesModule, ChainModule, Module, Modules, VariantsModule, render_bindings, value_words,
+    Axis, CandidatesModule, ChainModule, Module, Modules, VariantsModule, render_bindings, render_plain_bindings,
+    value_words,
 };
 pub use prose::single_line_comment;
 pub use statements::{statements_at_least, statements_at_most};

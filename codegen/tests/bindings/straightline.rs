@@ -13,7 +13,7 @@ pub mod all {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("all.wgsl");
-    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs.
     pub const MANIFEST: &str = include_str!("all.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "all_kernel";
@@ -435,7 +435,7 @@ pub mod tile {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("tile.wgsl");
-    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs.
     pub const MANIFEST: &str = include_str!("tile.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "all_kernel";
@@ -940,7 +940,7 @@ pub mod graded {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("graded.wgsl");
-    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs.
     pub const MANIFEST: &str = include_str!("graded.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "graded";
@@ -1536,7 +1536,7 @@ pub mod drawn {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("drawn.wgsl");
-    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs.
     pub const MANIFEST: &str = include_str!("drawn.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "drawn";
@@ -1799,7 +1799,7 @@ pub mod several {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("several.wgsl");
-    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs.
     pub const MANIFEST: &str = include_str!("several.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "several";
@@ -1970,7 +1970,7 @@ pub mod lit {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("lit.wgsl");
-    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs.
     pub const MANIFEST: &str = include_str!("lit.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "lit_kernel";
@@ -2320,7 +2320,7 @@ pub mod waiting {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("waiting.wgsl");
-    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs.
     pub const MANIFEST: &str = include_str!("waiting.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "waiting";
@@ -2577,7 +2577,7 @@ pub mod faded {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("faded.wgsl");
-    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs.
     pub const MANIFEST: &str = include_str!("faded.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "faded";
@@ -2794,7 +2794,7 @@ pub mod sraa {
     use straightline_runtime::{Error, Resource, wgpu};
     /// The shader.
     pub const WGSL: &str = include_str!("sraa.wgsl");
-    /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+    /// Bindings of the shader as JSON, for other programs.
     pub const MANIFEST: &str = include_str!("sraa.json");
     /// Name of the entry point.
     pub const ENTRY_POINT: &str = "sraa";
@@ -3087,7 +3087,7 @@ pub mod glow {
             use straightline_runtime::wgpu;
             /// The shader.
             pub const WGSL: &str = include_str!("glow.wgsl");
-            /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+            /// Bindings of the shader as JSON, for other programs.
             pub const MANIFEST: &str = include_str!("glow.json");
             /// Name of the entry point.
             pub const ENTRY_POINT: &str = "glow";
@@ -3252,7 +3252,7 @@ pub mod glow {
             use straightline_runtime::wgpu;
             /// The shader.
             pub const WGSL: &str = include_str!("glow_small.wgsl");
-            /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+            /// Bindings of the shader as JSON, for other programs.
             pub const MANIFEST: &str = include_str!("glow_small.json");
             /// Name of the entry point.
             pub const ENTRY_POINT: &str = "glow_small";
@@ -3440,7 +3440,7 @@ pub mod levels {
             use straightline_runtime::wgpu;
             /// The shader.
             pub const WGSL: &str = include_str!("levels_quarter_cascade.wgsl");
-            /// Bindings of the shader as JSON, for other programs; a pass is built from [`SHADER`].
+            /// Bindings of the shader as JSON, for other programs.
             pub const MANIFEST: &str = include_str!("levels_quarter_cascade.json");
             /// Name of the entry point.
             pub const ENTRY_POINT: &str = "levels_quarter_cascade";

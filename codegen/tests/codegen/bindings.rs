@@ -498,6 +498,7 @@ fn write(out: &Path) {
             let k = k.set("pattern", "latin4").set("metric", "depth").set("tau", "uniform");
             k.unroll(Unroll::None).format(Format::Rgba32Float)
         })
+        .plain_bindings()
         .out_dir(out)
         .compile();
     written.unwrap_or_else(|e| panic!("{e}"));

@@ -23,6 +23,7 @@ mod outputs;
 mod overrides;
 mod passes;
 mod passthrough;
+mod plain;
 mod resolution;
 mod shared;
 mod textures;

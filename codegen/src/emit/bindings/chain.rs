@@ -16,6 +16,19 @@ pub struct ChainModule<'a> {
     pub emitted: &'a EmittedChain,
 }
 
+impl<'a> ChainModule<'a> {
+    /// Returns the shaders of the passes.
+    pub(super) fn modules(&self) -> impl Iterator<Item = Module<'a>> + use<'a> {
+        let ChainModule { compiled, emitted } = *self;
+        emitted.shaders.iter().map(move |(name, pass)| Module {
+            name,
+            compiled: &compiled.kernels[&pass.kernel],
+            manifest: &pass.emitted.manifest,
+            wgsl: pass.emitted.wgsl(),
+        })
+    }
+}
+
 /// Returns the module of a chain.
 ///
 /// # Errors
@@ -37,17 +50,10 @@ pub fn quote_chain(chain: &ChainModule<'_>) -> Result<TokenStream, Errors> {
         ),
     ];
     let mut modules = Vec::new();
-    for (shader, pass) in &emitted.shaders {
-        let of = &compiled.kernels[&pass.kernel];
-        let module = Module {
-            name: shader,
-            compiled: of,
-            manifest: &pass.emitted.manifest,
-            wgsl: pass.emitted.wgsl(),
-        };
-        let constant = quote_shader(&module).map_err(|refusal| refusal.into_errors(of))?;
-        let (ident, constants) = (rust_identifier(shader), quote_constants(&module));
-        let docs = doc_line(&format!("Shader `{shader}`."));
+    for module in chain.modules() {
+        let constant = quote_shader(&module).map_err(|refusal| refusal.into_errors(module.compiled))?;
+        let (ident, constants) = (rust_identifier(module.name), quote_constants(&module));
+        let docs = doc_line(&format!("Shader `{}`.", module.name));
         modules.push(quote! {
             #[doc = #docs]
             #[allow(dead_code)]

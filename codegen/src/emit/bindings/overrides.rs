@@ -1,7 +1,7 @@
 //! Rust for the options that are set when the pipeline is created.
 
 use super::{doc_line, rust_identifier};
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use straightline_manifest::{Manifest, Override, OverrideType};
 
@@ -40,6 +40,14 @@ pub fn quote_overrides(manifest: &Manifest) -> TokenStream {
             }
         }
 
+    }
+}
+
+/// Returns the method that gives the values to a pass; nothing for a shader without overrides.
+pub fn quote_apply(manifest: &Manifest) -> TokenStream {
+    let names: Vec<&str> = manifest.overrides.iter().map(|of| of.name.as_str()).collect();
+    let fields = names.iter().map(|name| rust_identifier(name));
+    let method = quote! {
         impl Overrides {
             /// `options` with these values. Values out of range are refused when the pipeline is created.
             #[must_use]
@@ -47,7 +55,32 @@ pub fn quote_overrides(manifest: &Manifest) -> TokenStream {
                 options #(.override_option(#names, self.#fields))*
             }
         }
-    }
+    };
+    (!names.is_empty()).then_some(method).unwrap_or_default()
+}
+
+/// Returns the method that gives the values to a pipeline of wgpu; nothing for a shader without overrides.
+pub fn quote_pairs(manifest: &Manifest) -> TokenStream {
+    let all = &manifest.overrides;
+    let count = Literal::usize_unsuffixed(all.len());
+    let pairs = all.iter().map(|of| {
+        let (id, field) = (of.id.to_string(), rust_identifier(&of.name));
+        let value = match of.ty {
+            OverrideType::Bool => quote! { u8::from(self.#field) },
+            _ => quote! { self.#field },
+        };
+        quote! { (#id, f64::from(#value)) }
+    });
+    let method = quote! {
+        impl Overrides {
+            /// Returns the values as `constants` of `wgpu::PipelineCompilationOptions`. No value is compared with its range.
+            #[must_use]
+            pub fn constants(&self) -> [(&'static str, f64); #count] {
+                [#(#pairs),*]
+            }
+        }
+    };
+    (!all.is_empty()).then_some(method).unwrap_or_default()
 }
 
 /// Default of an override as a Rust literal.

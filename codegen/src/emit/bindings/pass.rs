@@ -185,6 +185,19 @@ pub fn quote_pass(manifest: &Manifest, given: &Given, targets: &Targets) -> Toke
     }
 }
 
+/// Returns the constant of interpolated values; nothing if there are none.
+pub fn quote_varyings(manifest: &Manifest) -> TokenStream {
+    let members = manifest.varyings.iter();
+    let members: String = members
+        .map(|v| format!("@location({}) {}: {},\n", v.location, v.name, v.ty))
+        .collect();
+    let constant = quote! {
+        /// Outputs that the vertex shader must have, as members of a structure in WGSL.
+        pub const VARYINGS: &str = #members;
+    };
+    (!members.is_empty()).then_some(constant).unwrap_or_default()
+}
+
 /// Returns the bindings of a kernel with interpolated values, drawn after a vertex shader of the caller's.
 pub fn quote_draw(manifest: &Manifest, given: &Given) -> TokenStream {
     let Given {
@@ -194,13 +207,9 @@ pub fn quote_draw(manifest: &Manifest, given: &Given) -> TokenStream {
         options,
         setters,
     } = given;
-    let members = manifest.varyings.iter();
-    let members: String = members
-        .map(|v| format!("@location({}) {}: {},\n", v.location, v.name, v.ty))
-        .collect();
+    let varyings = quote_varyings(manifest);
     quote! {
-        /// Outputs that the vertex shader must have, as members of a structure in WGSL.
-        pub const VARYINGS: &str = #members;
+        #varyings
 
         /// The shader on a device, after a vertex shader: create it once, and bind it to its inputs.
         #[derive(Debug)]
