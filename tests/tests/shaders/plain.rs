@@ -10,7 +10,7 @@ use straightline_manifest::Manifest;
 use straightline_runtime::{BindOptions, Pass, Resource};
 use wgpu::TextureFormat;
 
-mod plain {
+mod without_runtime {
     include!("../../../codegen/tests/bindings/straightline_wgpu.rs");
 }
 
@@ -18,7 +18,7 @@ const SIZE: UVec2 = uvec2(45, 31);
 
 /// A pipeline with the layout of the bindings.
 fn pipeline(device: &wgpu::Device, group: &wgpu::BindGroupLayout) -> wgpu::ComputePipeline {
-    use plain::graded::{ENTRY_POINT, WGSL};
+    use without_runtime::graded::{ENTRY_POINT, WGSL};
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: None,
         bind_group_layouts: &[Some(group)],
@@ -40,7 +40,9 @@ fn pipeline(device: &wgpu::Device, group: &wgpu::BindGroupLayout) -> wgpu::Compu
 
 #[test]
 fn the_picture_is_that_of_the_runtime() {
-    use plain::graded::{BIND_GROUP, BIND_GROUP_LAYOUT, MANIFEST, Parameters, Resources, TARGETS, WGSL, workgroups};
+    use without_runtime::graded::{
+        BIND_GROUP, BIND_GROUP_LAYOUT, MANIFEST, Parameters, Resources, TARGETS, WGSL, workgroups,
+    };
     let bench = bench();
     let (device, queue) = (bench.device(), bench.queue());
     let path = concat!(
@@ -111,14 +113,14 @@ fn the_picture_is_that_of_the_runtime() {
 /// A dispatch has a workgroup for each part of a target, of several that which needs most.
 #[test]
 fn workgroups_cover_the_targets() {
-    assert_eq!(plain::graded::workgroups([16, 17]), [1, 2, 1]);
-    assert_eq!(plain::graded::workgroups([0, 1]), [1, 1, 1]);
-    let tiles = plain::levels_quarter_cascade::workgroups([[64, 65], [97, 16]]);
+    assert_eq!(without_runtime::graded::workgroups([16, 17]), [1, 2, 1]);
+    assert_eq!(without_runtime::graded::workgroups([0, 1]), [1, 1, 1]);
+    let tiles = without_runtime::levels_quarter_cascade::workgroups([[64, 65], [97, 16]]);
     assert_eq!(tiles, [7, 3, 1]);
-    let overrides = plain::faded::Overrides {
+    let overrides = without_runtime::faded::Overrides {
         inverted: true,
         ..Default::default()
     };
     assert_eq!(overrides.constants(), [("0", 0.75), ("1", 1.0)]);
-    assert_eq!(plain::lit::IMMEDIATE_SIZE, 32);
+    assert_eq!(without_runtime::lit::IMMEDIATE_SIZE, 32);
 }

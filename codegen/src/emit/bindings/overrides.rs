@@ -56,7 +56,10 @@ pub fn quote_apply(manifest: &Manifest) -> TokenStream {
             }
         }
     };
-    (!names.is_empty()).then_some(method).unwrap_or_default()
+    match names.is_empty() {
+        true => TokenStream::new(),
+        false => method,
+    }
 }
 
 /// Returns the method that gives the values to a pipeline of wgpu; nothing for a shader without overrides.
@@ -80,7 +83,10 @@ pub fn quote_pairs(manifest: &Manifest) -> TokenStream {
             }
         }
     };
-    (!all.is_empty()).then_some(method).unwrap_or_default()
+    match all.is_empty() {
+        true => TokenStream::new(),
+        false => method,
+    }
 }
 
 /// Default of an override as a Rust literal.

@@ -195,7 +195,10 @@ pub fn quote_varyings(manifest: &Manifest) -> TokenStream {
         /// Outputs that the vertex shader must have, as members of a structure in WGSL.
         pub const VARYINGS: &str = #members;
     };
-    (!members.is_empty()).then_some(constant).unwrap_or_default()
+    match members.is_empty() {
+        true => TokenStream::new(),
+        false => constant,
+    }
 }
 
 /// Returns the bindings of a kernel with interpolated values, drawn after a vertex shader of the caller's.
