@@ -108,10 +108,15 @@ impl Handwritten {
     }
 }
 
-/// Opens a compute pass.
+/// Opens a compute pass of `copy`.
 fn compute(encoder: &mut wgpu::CommandEncoder, record: impl FnOnce(&mut wgpu::ComputePass<'_>)) {
+    compute_labelled(encoder, "copy", record);
+}
+
+/// Opens a compute pass. wgpu allocates its label.
+fn compute_labelled(encoder: &mut wgpu::CommandEncoder, label: &str, record: impl FnOnce(&mut wgpu::ComputePass<'_>)) {
     record(&mut encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-        label: Some("copy"),
+        label: Some(label),
         timestamp_writes: None,
     }));
 }
@@ -270,7 +275,7 @@ fn immediates_allocate_what_wgpu_does() {
             bound.encode(encoder);
         },
         |encoder| {
-            compute(encoder, |pass| {
+            compute_labelled(encoder, bound.kernel(), |pass| {
                 pass.set_pipeline(&pipeline);
                 pass.set_bind_group(0, &group, &[]);
                 pass.set_immediates(0, &[0; 32]);

@@ -205,7 +205,10 @@ fn what_cannot_be_reloaded_is_refused() {
     let error = start(&gpu, config(&chain, Stage::Compute))
         .expect_err("a chain")
         .to_string();
-    assert!(error.starts_with("`glow` is a chain or a set of variants"), "{error}");
+    assert!(
+        error.starts_with("`glow` is a chain, a set of variants or of candidates"),
+        "{error}"
+    );
     let missing = start(&gpu, config(&folder.0.join("none.rs"), Stage::Compute)).expect_err("no file");
     assert!(missing.to_string().contains("cannot read the kernel file"), "{missing}");
 }
