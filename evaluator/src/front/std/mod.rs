@@ -7,7 +7,7 @@
 mod by_size;
 
 use crate::diagnostic::{File, Span};
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::fmt::Write;
 use std::sync::OnceLock;
 
@@ -86,20 +86,28 @@ const INTERNAL: [&str; 3] = ["divides_by", "multiplies", "to_vec4"];
 
 /// Names of the functions that a type has in these texts.
 pub fn function_names(ty: &str) -> Vec<&'static str> {
-    let of_type = pieces().iter().filter(|piece| piece.type_name() == ty);
-    let names = of_type.flat_map(|piece| piece.names.iter().map(String::as_str));
-    let mut names: Vec<&str> = names
-        .filter(|name| name.starts_with(char::is_lowercase) && !INTERNAL.contains(name))
-        .collect();
-    names.sort_unstable();
-    names.dedup();
+    let names = names_by_type().get(ty).into_iter().flatten().copied();
     names
+        .filter(|name| name.starts_with(char::is_lowercase) && !INTERNAL.contains(name))
+        .collect()
 }
 
 /// Returns whether a type has a function in these texts.
 pub fn has_function(ty: &str, name: &str) -> bool {
-    let mut of_type = pieces().iter().filter(|piece| piece.type_name() == ty);
-    of_type.any(|piece| piece.names.iter().any(|known| known == name))
+    names_by_type().get(ty).is_some_and(|names| names.contains(name))
+}
+
+/// Names of the functions in these texts, by the type that has them. Every call of a method asks for them.
+fn names_by_type() -> &'static HashMap<&'static str, BTreeSet<&'static str>> {
+    static NAMES: OnceLock<HashMap<&str, BTreeSet<&str>>> = OnceLock::new();
+    NAMES.get_or_init(|| {
+        let mut by_type: HashMap<&str, BTreeSet<&str>> = HashMap::new();
+        for piece in pieces() {
+            let names = by_type.entry(piece.type_name()).or_default();
+            names.extend(piece.names.iter().map(String::as_str));
+        }
+        by_type
+    })
 }
 
 /// The functions, those of a type in an `impl` of it.
