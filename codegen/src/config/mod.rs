@@ -17,6 +17,7 @@
 mod built;
 mod candidates;
 mod error;
+mod parallel;
 mod shader;
 mod variants;
 

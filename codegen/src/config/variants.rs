@@ -1,6 +1,7 @@
 //! A set of shaders of one kernel: one for each combination of option values, and those with the same text once.
 
 use super::error::{Error, Problem};
+use super::parallel::map_in_parallel;
 use super::shader::{BuiltShader, build_shader};
 use crate::emit::{self, Axis};
 use crate::kernel::Kernel;
@@ -41,11 +42,18 @@ pub(super) fn build_variants(config: &KernelConfig, kernel: &Kernel, name: Strin
     };
     let (mut known, mut stems) = (BTreeMap::new(), BTreeSet::new());
     let (mut said, mut problems) = (BTreeSet::new(), Vec::new());
-    for options in variants.combinations() {
+    let combinations = variants.combinations().into_iter().map(|options| {
+        let stem = unique_stem(&set.name, &options, &mut stems);
+        (options, stem)
+    });
+    let combinations: Vec<_> = combinations.collect();
+    let built = map_in_parallel(&combinations, |(options, stem)| {
         let mut spec = config.spec.clone();
         spec.settings = spec.settings.set_all(options.iter().cloned());
-        let stem = unique_stem(&set.name, &options, &mut stems);
-        match build_shader(&spec, kernel, stem) {
+        build_shader(&spec, kernel, stem.clone())
+    });
+    for ((options, _), result) in combinations.into_iter().zip(built) {
+        match result {
             Ok(shader) => {
                 let at = *known.entry(identity(&shader)).or_insert(set.shaders.len());
                 if at == set.shaders.len() {
