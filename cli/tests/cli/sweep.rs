@@ -275,16 +275,23 @@ fn shards_are_joined_and_runs_compared() {
 
     // A record does not differ from itself, and does from one in which unrolled shaders took half the time.
     assert!(finishes(&["study", "compare", &all, &all]).contains("second by first"));
-    let mut faster = record.clone();
-    for variant in faster["variants"].as_array_mut().unwrap() {
-        if variant["settings"]["unroll"] == "full" {
-            for ms in variant["measured"]["rounds_ms"].as_array_mut().unwrap() {
-                *ms = (ms.as_f64().unwrap() / 20.0).into();
+    // Times of this machine would differ between rounds, so both records have made ones.
+    let timed = |ms_of: fn(&Value, usize) -> f64| {
+        let mut made = record.clone();
+        for variant in made["variants"].as_array_mut().unwrap() {
+            let settings = variant["settings"].clone();
+            let rounds = variant["measured"]["rounds_ms"].as_array_mut().unwrap();
+            for (k, ms) in rounds.iter_mut().enumerate() {
+                *ms = ms_of(&settings, k).into();
             }
         }
-    }
-    let faster = write(&folder, "faster.json", &faster.to_string());
-    let output = straightline(&["study", "compare", &all, &faster]);
+        made.to_string()
+    };
+    let steady = timed(|_, k| 1.0 + 0.01 * k as f64);
+    let faster = timed(|settings, k| (1.0 + 0.01 * k as f64) * if settings["unroll"] == "full" { 0.5 } else { 1.0 });
+    let steady = write(&folder, "steady.json", &steady);
+    let faster = write(&folder, "faster.json", &faster);
+    let output = straightline(&["study", "compare", &steady, &faster]);
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stdout).contains("differs"));
     assert!(String::from_utf8_lossy(&output.stderr).contains("3 of 3 variants differ"));
