@@ -44,8 +44,11 @@ fn list_bindings(plan: &Plan, places: bool) -> Vec<Bound> {
         (format!("input `{}`", input.name), text)
     });
     let outputs = plan.outputs.iter().map(|output| {
-        // Without a place, it is the attachment of a fragment shader.
-        let text = format!("{:?} {:?}", output.format, output.place.filter(|_| places));
+        let text = format!(
+            "{:?} {:?}",
+            output.format,
+            places.then_some((output.place, output.tile))
+        );
         (format!("target `{}`", output.name), text)
     });
     let uniforms = plan.uniforms.iter().flat_map(|uniform| {
@@ -54,13 +57,17 @@ fn list_bindings(plan: &Plan, places: bool) -> Vec<Bound> {
                 default: None,
                 ..field.clone()
             };
-            let place = uniform.place.filter(|_| places);
-            let text = format!("{place:?} {} {bare:?}", uniform.size);
+            let text = format!("{:?} {} {bare:?}", uniform.place.filter(|_| places), uniform.size);
             (format!("uniform `{}`", field.source_name()), text)
         })
     });
     let region = plan.region.iter().map(|region| {
-        let text = format!("{:?} {}", region.place.filter(|_| places), region.size);
+        let text = format!(
+            "{:?} {} {:?}",
+            region.place.filter(|_| places),
+            region.size,
+            region.fields
+        );
         ("the rectangle of regions".to_owned(), text)
     });
     inputs.chain(outputs).chain(uniforms).chain(region).collect()
