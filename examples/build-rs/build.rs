@@ -7,7 +7,7 @@ fn main() -> Result<(), straightline_codegen::config::Error> {
         .kernel("sraa", |k| k.set("pattern", "latin4").set("metric", "depth"))
         .file_with("src/kernels/glow.rs", |k| {
             k.set("strength", "uniform")
-                // Which of these is fastest depends on the GPU: `Pass::choose` times them.
+                // The fastest of these depends on the GPU: `Pass::choose` times them.
                 .candidate("looped", |s| s.unroll(Unroll::None))
                 .candidate("shared", |s| s.share(Share::WORKGROUP))
         })

@@ -12,10 +12,10 @@ use straightline_manifest::plan::Plan;
 
 /// A shader and its candidates, ready to be written.
 pub(super) struct BuiltCandidates {
-    /// Shaders that differ; the first one has the kernel's own settings and name.
-    shaders: Vec<BuiltShader>,
-    /// Names of the candidates with the position of their shader.
-    candidates: Vec<(String, usize)>,
+    /// Shaders that differ with the names of their candidates; the first one has the kernel's own settings and name.
+    shaders: Vec<(String, BuiltShader)>,
+    /// Candidates with the text of another one, whose name follows.
+    twins: Vec<(String, String)>,
 }
 
 /// Builds a shader and its candidates.
@@ -40,13 +40,14 @@ pub(super) fn build_candidates(config: &KernelConfig, kernel: &Kernel, name: Str
     }
     let plan = plan_of(&own);
     let mut set = BuiltCandidates {
-        shaders: vec![own],
-        candidates: vec![(Candidates::DEFAULT.to_owned(), 0)],
+        shaders: vec![(Candidates::DEFAULT.to_owned(), own)],
+        twins: Vec::new(),
     };
     let mut problems = Vec::new();
     for candidate in config.candidates.iter() {
         let spec = candidate.apply(&config.spec);
-        if spec.settings.options != config.spec.settings.options {
+        let (own, other) = (&config.spec.settings, &spec.settings);
+        if (&own.options, &own.overrides) != (&other.options, &other.overrides) {
             let why = format!(
                 "the candidate `{}` sets options, and candidates compute the same: use `.variants(..)`",
                 candidate.name
@@ -79,44 +80,35 @@ impl BuiltCandidates {
     /// Adds a candidate, whose shader may be one that is there.
     fn add(&mut self, candidate: &str, shader: BuiltShader) {
         let of_new = identity(&shader);
-        let known = self.shaders.iter().position(|own| identity(own) == of_new);
-        let at = known.unwrap_or(self.shaders.len());
-        if known.is_none() {
-            self.shaders.push(shader);
+        match self.shaders.iter().find(|(_, known)| identity(known) == of_new) {
+            Some((twin, _)) => self.twins.push((candidate.to_owned(), twin.clone())),
+            None => self.shaders.push((candidate.to_owned(), shader)),
         }
-        self.candidates.push((candidate.to_owned(), at));
     }
 
     pub fn name(&self) -> &str {
-        &self.shaders[0].name
+        &self.shaders[0].1.name
     }
 
+    /// The files, with a list of the candidates and the stems of their files for `straightline choose`.
     pub fn files(&self) -> BTreeMap<String, Vec<u8>> {
-        let shaders = self.shaders.iter();
-        let mut files: BTreeMap<_, _> = shaders
-            .flat_map(|shader| shader.emitted.named_files(&shader.name))
-            .collect();
-        files.insert(format!("{}.candidates.txt", self.name()), self.list().into_bytes());
+        let mut list = format!("# candidates for {}\n", self.name());
+        let mut files = BTreeMap::new();
+        for (candidate, shader) in &self.shaders {
+            list += &format!("{candidate} {}\n", shader.name);
+            files.extend(shader.emitted.named_files(&shader.name));
+        }
+        files.insert(format!("{}.candidates.txt", self.name()), list.into_bytes());
         files
     }
 
-    /// The candidates that are timed with the stems of their files, for `straightline choose`.
-    fn list(&self) -> String {
-        let mut text = format!("# candidates for {}\n", self.name());
-        for (at, shader) in self.shaders.iter().enumerate() {
-            let first = self.candidates.iter().find(|(_, of)| *of == at);
-            let (name, _) = first.expect("each shader is some candidate's");
-            text += &format!("{name} {}\n", shader.name);
-        }
-        text
-    }
-
     pub fn bindings_module(&self) -> emit::CandidatesModule<'_> {
-        let mut modules = self.shaders.iter().map(BuiltShader::bindings_module);
+        let shaders = self.shaders.iter();
         emit::CandidatesModule {
-            own: modules.next().expect("the kernel's own"),
-            others: modules.collect(),
-            candidates: &self.candidates,
+            shaders: shaders
+                .map(|(candidate, shader)| (candidate.as_str(), shader.bindings_module()))
+                .collect(),
+            twins: &self.twins,
         }
     }
 }

@@ -82,6 +82,8 @@ fn candidates_that_cannot_take_its_place_are_refused() {
         error,
         "candidates for `sraa`: the candidate `few` sets options, and candidates compute the same: use `.variants(..)`"
     );
+    let error = refused(|k| k.candidate("later", |s| s.override_options(["tau"])));
+    assert!(error.contains("`later` sets options"), "{error}");
     let error = refused(|k| k.candidate("a b", |s| s));
     assert!(error.contains("`a b` cannot name a candidate"), "{error}");
     let error = refused(|k| k.candidate("rgba8", |s| s.format(Format::Rgba8Unorm)));

@@ -124,7 +124,7 @@ fn read(text: &str) -> TestFile {
     TestFile::from_text("kernel.rs", text).unwrap_or_else(|errors| panic!("{}", errors.render(false)))
 }
 
-/// What the tests of a file execute, each compiled by `compile`.
+/// Coverage by the tests of a file, each compiled by `compile`.
 fn cover(file: &TestFile, compile: impl Fn(&Test) -> TestKernel) -> Coverage {
     let plan = Plan {
         cases: 8,

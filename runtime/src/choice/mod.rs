@@ -153,7 +153,7 @@ impl Choices {
     ///
     /// # Errors
     ///
-    /// Those of `bind`; the first candidate's error if the device can run no candidate; [`Error::DeviceLost`], [`Error::TimerRead`].
+    /// Errors of `bind`; the first candidate's error if the device can run no candidate; [`Error::DeviceLost`], [`Error::TimerRead`].
     pub fn choose(
         &mut self,
         (device, queue): (&Device, &Queue),
@@ -179,6 +179,10 @@ impl Choices {
                 Err(error) => skipped.push((candidate.name.to_owned(), error)),
             }
         }
+        if made.is_empty() {
+            let first = skipped.into_iter().next();
+            return Err(first.map_or(Error::NoCandidates, |(_, error)| error));
+        }
         let (at, reason) = if made.len() < 2 || cfg!(target_arch = "wasm32") {
             (0, Reason::Untimed)
         } else {
@@ -195,12 +199,6 @@ impl Choices {
             });
             (fastest, Reason::Timed)
         };
-        if made.is_empty() {
-            return Err(skipped
-                .into_iter()
-                .next()
-                .map_or(Error::NoCandidates, |(_, error)| error));
-        }
         let (candidate, pass) = made.swap_remove(at);
         Ok(Chosen {
             skipped,

@@ -92,7 +92,7 @@ fn the_fastest_is_timed_once_and_remembered() {
     let (chosen, _) = choose(&mut read, &[candidates[2], candidates[1]]);
     assert_eq!((chosen.name.as_str(), chosen.reason), ("fast", Reason::Timed));
     assert_eq!(read.iter().len(), 2);
-    // What is there precedes what is added.
+    // Choices that are there precede added ones.
     let mut added = Choices::new();
     added.add(read);
     added.add(text.replace("\tfast\t", "\tslow\t").parse().expect("a text"));

@@ -7,12 +7,10 @@ use quote::quote;
 
 /// Input of the module of a shader with candidates.
 pub struct CandidatesModule<'a> {
-    /// The shader of the kernel's own settings.
-    pub own: Module<'a>,
-    /// Other shaders.
-    pub others: Vec<Module<'a>>,
-    /// Names of the candidates with the position of their shader, of which the kernel's own is 0.
-    pub candidates: &'a [(String, usize)],
+    /// Shaders that differ with the names of their candidates. The first one, of the kernel's own settings, has the module.
+    pub shaders: Vec<(&'a str, Module<'a>)>,
+    /// Candidates with the text of another one, whose name follows.
+    pub twins: &'a [(String, String)],
 }
 
 /// Returns the modules of the other shaders, the constant `CANDIDATES` and `Pass::choose`.
@@ -22,22 +20,14 @@ pub fn quote_candidates(
     given: &Given,
     targets: &Targets,
 ) -> TokenStream {
-    // A shader is timed once, under its first name.
-    let shaders = 0..=set.others.len();
-    let first = shaders.map(|at| set.candidates.iter().find(|(_, of)| *of == at));
-    let candidates: Vec<TokenStream> = first
-        .flatten()
-        .map(|(name, at)| {
-            let module = at.checked_sub(1).map(|k| rust_identifier(set.others[k].name));
-            let module = module.map(|module| quote! { #module:: });
-            quote! { straightline_runtime::Candidate { name: #name, shader: &#module SHADER } }
-        })
-        .collect();
-    let count = Literal::usize_unsuffixed(candidates.len());
-    let twins = set.candidates.iter().enumerate().filter_map(|(k, (name, at))| {
-        let (twin, _) = set.candidates[..k].iter().find(|(_, other)| other == at)?;
-        Some(doc_line(&format!("`{name}` has the same text as `{twin}`.")))
+    let candidates = set.shaders.iter().enumerate().map(|(k, (name, module))| {
+        let module = rust_identifier(module.name);
+        let module = (k > 0).then(|| quote! { #module:: });
+        quote! { straightline_runtime::Candidate { name: #name, shader: &#module SHADER } }
     });
+    let count = Literal::usize_unsuffixed(set.shaders.len());
+    let twins = set.twins.iter();
+    let twins = twins.map(|(name, twin)| doc_line(&format!("`{name}` has the same text as `{twin}`.")));
     let choose = given.quote_choose(targets);
     quote! {
         #(#others)*

@@ -64,8 +64,10 @@ pub fn render_bindings(modules: &Modules<'_>) -> Result<String, Errors> {
     let quoted = |shaders: &[Module<'_>]| shaders.iter().map(quote_or_errors).collect::<Result<Vec<_>, _>>();
     let shaders = quoted(&modules.shaders)?;
     let candidates = modules.candidates.iter().map(|set| {
-        let others = quoted(&set.others)?;
-        quote_module(&set.own, Some((set, &others))).map_err(|refusal| refusal.into_errors(set.own.compiled))
+        let mut shaders = set.shaders.iter().map(|(_, module)| module);
+        let own = shaders.next().expect("the kernel's own");
+        let others = shaders.map(quote_or_errors).collect::<Result<Vec<_>, _>>()?;
+        quote_module(own, Some((set, &others))).map_err(|refusal| refusal.into_errors(own.compiled))
     });
     let candidates = candidates.collect::<Result<Vec<_>, Errors>>()?;
     let variants = modules
@@ -82,8 +84,8 @@ pub fn render_bindings(modules: &Modules<'_>) -> Result<String, Errors> {
 /// of any version with the same names. The file belongs in the folder of the shaders' files and is meant to be included by a
 /// crate that has a dependency called `wgpu`.
 pub fn render_plain_bindings(modules: &Modules<'_>) -> String {
-    let candidates = modules.candidates.iter();
-    let candidates = candidates.flat_map(|set| std::iter::once(&set.own).chain(&set.others));
+    let candidates = modules.candidates.iter().flat_map(|set| &set.shaders);
+    let candidates = candidates.map(|(_, module)| module);
     let sets = modules.variants.iter().flat_map(|set| &set.shaders);
     let passes: Vec<Module<'_>> = modules.chains.iter().flat_map(ChainModule::modules).collect();
     let shaders = modules

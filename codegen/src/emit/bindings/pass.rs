@@ -69,7 +69,7 @@ impl Given {
                 ///
                 /// # Errors
                 ///
-                /// Those of `bind`, and if the device can run none of them or is lost.
+                /// Errors of `bind`, and if the device can run none of them or is lost.
                 pub fn choose(
                     device: (&wgpu::Device, &wgpu::Queue),
                     choices: &mut straightline_runtime::Choices,
