@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::gpu::{self, Gpu};
 use crate::scene;
 use glam::{UVec2, Vec4};
+use std::time::Duration;
 use steps::Steps;
 use straightline_bench::execute::Inputs;
 use straightline_codegen::{Compiled, Kernel, Settings, Unroll, default_set};
@@ -19,7 +20,7 @@ use straightline_scene::picture;
 use straightline_scene::render::{self, Renderer, Samples};
 use table::{Record, Row};
 
-/// An antialiased picture and its measurements.
+/// A filter with its inputs.
 struct Method {
     name: &'static str,
     /// Geometry samples beside the shaded one.
@@ -28,6 +29,13 @@ struct Method {
     looped: Compiled,
     capture: Capture,
     inputs: Inputs,
+}
+
+/// A filter's picture, and the time that it took by whatever drew it.
+struct Filtered {
+    method: Method,
+    picture: Frame<Vec4>,
+    took: Duration,
 }
 
 /// Side of the detail in pixels, and its magnification.
@@ -60,45 +68,40 @@ pub fn run_demo(args: &DemoArgs) -> Result<(), Failure> {
     let renderer = scene::create_renderer(gpu.as_ref(), &world, size)?;
     steps.done(&format!("{}x{} on {executor}", size.x, size.y));
 
-    let mut pictures = Vec::new();
-    let mut methods = Vec::new();
+    let mut filtered: Vec<Filtered> = Vec::new();
     for (name, pattern, samples) in [
         ("SRAA 4", "latin4", Samples::Four),
         ("SRAA 16", "latin16", Samples::Sixteen),
     ] {
         let method = prepare_method(name, pattern, samples, renderer.as_ref())?;
-        if pictures.is_empty() {
-            let plain = method.capture.color.clone();
-            steps.write_picture("1x", &plain)?;
-            pictures.push(("1x", plain));
+        if filtered.is_empty() {
+            steps.write_picture("1x", &method.capture.color)?;
         }
-        let picture = timing::run(gpu.as_ref(), &method)?;
+        let (picture, took) = timing::run(gpu.as_ref(), &method)?;
         steps.write_picture(name, &picture)?;
-        pictures.push((name, picture));
-        methods.push(method);
+        filtered.push(Filtered { method, picture, took });
     }
     let x16 = render_supersampled(renderer.as_ref(), 4, "16x supersampling")?;
     steps.write_picture("16x supersampled", &x16)?;
-    pictures.push(("16x supersampled", x16));
     let x256 = render_supersampled(renderer.as_ref(), 16, "256x reference")?;
     steps.write_picture("256x reference", &x256)?;
-    let corner = picture::find_busiest_square(&pictures[0].1, &x256, SIDE);
-    let all: Vec<(&str, &Frame<Vec4>)> = pictures.iter().map(|(name, frame)| (*name, frame)).collect();
+    let plain = &filtered[0].method.capture.color;
+    let mut all = vec![("1x", plain)];
+    all.extend(filtered.iter().map(|of| (of.method.name, &of.picture)));
+    all.push(("16x supersampled", &x16));
+    let corner = picture::find_busiest_square(plain, &x256, SIDE);
     steps.write_picture("detail", &picture::compare_details(&all, corner, SIDE, ZOOM))?;
 
     let measured = match &gpu {
-        Some(gpu) => timing::time_frames(gpu, &world, size, &methods, args.rounds)?,
-        None => timing::time_interpreter(&methods)?,
+        Some(gpu) => timing::time_frames(gpu, &world, size, &filtered, args.rounds)?,
+        None => timing::time_interpreter(&filtered)?,
     };
     steps.done("timing");
-    let [plain, sraa @ .., x16] = &pictures[..] else {
-        return Err(Failure::Failed("no pictures".to_owned()));
-    };
-    let mut rows = vec![Row::plain("1x, no antialiasing", &plain.1, &x256).with_frame(measured.plain_ms)];
-    for ((method, (_, picture)), times) in methods.iter().zip(sraa).zip(&measured.methods) {
-        rows.push(Row::measured(method, picture, times, &x256)?);
+    let mut rows = vec![Row::plain("1x, no antialiasing", plain, &x256).with_frame(measured.plain_ms)];
+    for (of, times) in filtered.iter().zip(&measured.methods) {
+        rows.push(Row::measured(&of.method, &of.picture, times, &x256)?);
     }
-    rows.push(Row::plain("16x supersampling", &x16.1, &x256).with_frame(measured.supersampled_ms));
+    rows.push(Row::plain("16x supersampling", &x16, &x256).with_frame(measured.supersampled_ms));
     Record::new(args, size, executor, measured.clock, rows).print(args)
 }
 

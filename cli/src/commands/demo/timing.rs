@@ -1,6 +1,6 @@
 //! Runs and times of the demo's frames.
 
-use super::Method;
+use super::{Filtered, Method};
 use crate::failure::Failure;
 use crate::gpu::Gpu;
 use crate::scene;
@@ -52,19 +52,15 @@ pub struct MethodTimes {
     pub frame_ms: Option<f64>,
 }
 
-/// Runs a method's filter, on the GPU or else in the interpreter.
-pub fn run(gpu: Option<&Gpu>, method: &Method) -> Result<Frame<Vec4>, Failure> {
+/// Runs a method's filter, on the GPU or else in the interpreter. Returns its picture and the time of all.
+pub fn run(gpu: Option<&Gpu>, method: &Method) -> Result<(Frame<Vec4>, Duration), Failure> {
+    let start = Instant::now();
     let (kernel, inputs) = (&method.unrolled, &method.inputs);
-    match gpu {
-        Some(gpu) => gpu
-            .bench()
-            .run(kernel, Stage::Compute, inputs)
-            .map_err(Failure::from_error),
-        None => {
-            let texels = interpret_kernel::<f32>(kernel, inputs, false).map_err(Failure::from_error)?;
-            Ok(texels.frame(inputs))
-        }
-    }
+    let picture = match gpu {
+        Some(gpu) => gpu.bench().run(kernel, Stage::Compute, inputs),
+        None => interpret_kernel::<f32>(kernel, inputs, false).map(|texels| texels.frame(inputs)),
+    };
+    Ok((picture.map_err(Failure::from_error)?, start.elapsed()))
 }
 
 /// Times the filters, looped and unrolled, and the passes of each frame, in turn.
@@ -72,7 +68,7 @@ pub fn time_frames(
     gpu: &Gpu,
     world: &Scene,
     size: UVec2,
-    methods: &[Method],
+    filtered: &[Filtered],
     rounds: u32,
 ) -> Result<Measured, Failure> {
     let bench = gpu.bench();
@@ -82,8 +78,9 @@ pub fn time_frames(
         let uploaded = bench.upload(&manifest, &method.inputs)?;
         Ok((pass, uploaded))
     };
+    let methods = filtered.iter().map(|of| &of.method);
     let filters = methods
-        .iter()
+        .clone()
         .flat_map(|method| [(&method.looped, method), (&method.unrolled, method)]);
     let filters = filters
         .map(prepare)
@@ -114,20 +111,17 @@ pub fn time_frames(
     let times = timed.rounds.iter().map(|times| Times::from_durations(times));
     let times: Option<Vec<Times>> = times.collect();
     let times = times.ok_or_else(|| Failure::Failed("nothing was timed".to_owned()))?;
-    let (filters, passes) = times.split_at(2 * methods.len());
+    let (filters, passes) = times.split_at(2 * filtered.len());
     let sum = |of: &[FramePass]| -> f64 {
         let medians = PASSES.iter().zip(passes).filter(|(pass, _)| of.contains(pass));
         medians.map(|(_, times)| times.median_ms).sum()
     };
     let (filters, _) = filters.as_chunks::<2>();
-    let methods = methods
-        .iter()
-        .zip(filters)
-        .map(|(method, [looped, unrolled])| MethodTimes {
-            frame_ms: Some(sum(&PLAIN) + sum(&[FramePass::Auxiliary(method.samples)]) + unrolled.median_ms),
-            looped: looped.clone(),
-            unrolled: unrolled.clone(),
-        });
+    let methods = methods.zip(filters).map(|(method, [looped, unrolled])| MethodTimes {
+        frame_ms: Some(sum(&PLAIN) + sum(&[FramePass::Auxiliary(method.samples)]) + unrolled.median_ms),
+        looped: looped.clone(),
+        unrolled: unrolled.clone(),
+    });
     Ok(Measured {
         clock: timed.clock,
         plain_ms: Some(sum(&PLAIN)),
@@ -136,17 +130,15 @@ pub fn time_frames(
     })
 }
 
-/// Runs each filter once more in the interpreter, which is there to show the result, not to be timed.
-pub fn time_interpreter(methods: &[Method]) -> Result<Measured, Failure> {
-    let time = |compiled, method: &Method| {
+/// Times of the interpreter, of one run each: it is there to show the result, not to be timed.
+pub fn time_interpreter(filtered: &[Filtered]) -> Result<Measured, Failure> {
+    let once = |took| Times::from_durations(&[took]).ok_or_else(|| Failure::Failed("nothing was timed".to_owned()));
+    let methods = filtered.iter().map(|Filtered { method, took, .. }| {
         let start = Instant::now();
-        interpret_kernel::<f32>(compiled, &method.inputs, false).map_err(Failure::from_error)?;
-        Times::from_durations(&[start.elapsed()]).ok_or_else(|| Failure::Failed("nothing was timed".to_owned()))
-    };
-    let methods = methods.iter().map(|method| {
+        interpret_kernel::<f32>(&method.looped, &method.inputs, false).map_err(Failure::from_error)?;
         Ok(MethodTimes {
-            looped: time(&method.looped, method)?,
-            unrolled: time(&method.unrolled, method)?,
+            looped: once(start.elapsed())?,
+            unrolled: once(*took)?,
             frame_ms: None,
         })
     });
