@@ -104,14 +104,8 @@ pub fn compare_with_file(golden: &Path, drawn: &Drawn, likeness: Likeness, bless
             let (golden, sizes) = (golden.to_owned(), [stored.size, drawn.size]);
             return Err(Mismatch::Size { golden, sizes });
         }
-        let most = stored.max_component();
-        let bytes: Vec<[u8; 4]> = match most {
-            255 => stored.numbers().map(|texel| texel.map(|number| number as u8)).collect(),
-            _ => stored
-                .fractions()
-                .map(|texel| texel.map(|x| (x * 255.0).round() as u8))
-                .collect(),
-        };
+        let bytes = stored.fractions().map(|texel| texel.map(|x| (x * 255.0).round() as u8));
+        let bytes: Vec<[u8; 4]> = bytes.collect();
         Ok((compare_pictures(drawn.size[0], &drawn.texels, &bytes), bytes))
     });
     let own = || drawn.texels.iter().map(|texel| to_srgb8(*texel)).collect::<Vec<_>>();

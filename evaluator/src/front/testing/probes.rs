@@ -69,6 +69,10 @@ impl Inserter<'_> {
         syn::Stmt::Expr(call, Some(syn::Token![;](brace)))
     }
 
+    fn side_probe(&mut self, at: proc_macro2::Span, brace: proc_macro2::Span, branch: u32, side: u32) -> syn::Stmt {
+        self.probe(at, brace, ProbeKind::Side { branch, side })
+    }
+
     fn visit_function(&mut self, name: &Ident, block: &mut syn::Block) {
         let path: Vec<&str> = self.path.iter().map(String::as_str).collect();
         let path = [&path[..], &[&name.to_string()]].concat().join("::");
@@ -86,7 +90,7 @@ impl Inserter<'_> {
 
     /// Visits a block that is a side of a branch or the body of a loop.
     fn visit_side(&mut self, at: proc_macro2::Span, branch: u32, side: u32, block: &mut syn::Block) {
-        let probe = self.probe(at, block.brace_token.span.open(), ProbeKind::Side { branch, side });
+        let probe = self.side_probe(at, block.brace_token.span.open(), branch, side);
         self.visit_block_mut(block);
         block.stmts.insert(0, probe);
     }
@@ -180,27 +184,13 @@ impl VisitMut for Inserter<'_> {
             Some((_, otherwise)) => match &mut **otherwise {
                 syn::Expr::Block(block) => self.visit_side(at, number, 1, &mut block.block),
                 chained => {
-                    let probe = self.probe(
-                        at,
-                        brace,
-                        ProbeKind::Side {
-                            branch: number,
-                            side: 1,
-                        },
-                    );
+                    let probe = self.side_probe(at, brace, number, 1);
                     self.visit_expr_mut(chained);
                     Inserter::put_behind(probe, chained);
                 }
             },
             none => {
-                let probe = self.probe(
-                    at,
-                    brace,
-                    ProbeKind::Side {
-                        branch: number,
-                        side: 1,
-                    },
-                );
+                let probe = self.side_probe(at, brace, number, 1);
                 let block = syn::ExprBlock {
                     attrs: Vec::new(),
                     label: None,
@@ -219,7 +209,7 @@ impl VisitMut for Inserter<'_> {
         self.visit_expr_mut(&mut branch.expr);
         let brace = branch.brace_token.span.open();
         for (side, arm) in (0..).zip(&mut branch.arms) {
-            let probe = self.probe(at, brace, ProbeKind::Side { branch: number, side });
+            let probe = self.side_probe(at, brace, number, side);
             // A block has probes of its own statements.
             if !matches!(*arm.body, syn::Expr::Block(_)) {
                 let inner = self.probe(arm.body.span(), brace, ProbeKind::Statement);
